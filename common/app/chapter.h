@@ -1,0 +1,90 @@
+// What a chapter program is. `runChapter` gives it a window, a headless renderer, a test subject and a benchmark.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/app/parameters.h"
+#include "common/gl/context.h"
+#include "common/image/image.h"
+#include "common/scene/gpu_scene.h"
+#include "common/scene/scene.h"
+#include "common/truth/truth_image.h"
+
+namespace penumbra {
+
+/// Named counters of the report's "work" object, e.g. shadow_maps_rendered. Of one frame: cleared before each.
+using WorkCounters = std::map<std::string, std::int64_t>;
+
+struct ViewInfo {
+    std::string name;      ///< "color", "visibility", "depth", ...
+    std::string help;      ///< what the picture shows
+    bool scalar = false;   ///< 1 channel: shown as grey (or false colour), stored as one channel
+    bool falseColour = false;
+};
+
+struct ChapterInfo {
+    std::string name;      ///< "03_polygon_offset"
+    std::string idea;      ///< one line: the new idea
+    std::vector<ViewInfo> views;  ///< color and visibility first
+    bool needsGl = true;   ///< false: renders on the CPU (chapter 00)
+};
+
+/// Everything one frame needs. Positions are relative to scene.origin.
+struct Frame {
+    const Scene& scene;
+    const GpuScene* gpu;          ///< null for a CPU chapter
+    const Context* context;       ///< null for a CPU chapter
+    const Camera& camera;
+    glm::ivec2 size;              ///< pixels
+    std::string view;
+    std::uint32_t framebuffer;    ///< RGBA32F (RGBA16F or RGBA8 in the fallback) and depth; bound and with viewport set on entry
+    WorkCounters& work;
+    std::uint32_t seed;
+    bool skip;                    ///< false: --skip-none, do all the work (same picture)
+    /// CPU chapters put their picture here (1 or 3 channels).
+    FloatImage* cpuPicture;
+    const ProgressCallback& progress;
+};
+
+/// What a truth needs besides the frame.
+struct TruthRequest {
+    const Scene& scene;
+    const RayTracer& tracer;
+    const Camera& camera;
+    glm::ivec2 size;
+    std::string view;
+    const ProgressCallback& progress;
+    const Context* context;       ///< null for a CPU chapter
+};
+
+class Chapter {
+   public:
+    virtual ~Chapter() = default;
+    /// Declares the parameters; called once, before anything else.
+    virtual void declare(Parameters& parameters) = 0;
+    /// Called once for each scene, with the context current (if any): create GL objects here.
+    virtual void load(const Scene& scene, const Context* context) = 0;
+    /// Draws frame.view into frame.framebuffer: linear values, rgb (scalar views: r), alpha 1.
+    virtual void render(const Frame& frame) = 0;
+    /// The exact answer for request.view. Throws UsageError if this view has none.
+    virtual TruthImage truth(const TruthRequest& request) = 0;
+    /// Programs to watch for hot reload.
+    virtual std::vector<Program*> programs() { return {}; }
+};
+
+/// Runs the command line of the design for one chapter; returns the exit status. Never throws.
+int runChapter(const ChapterInfo& info, const std::function<std::unique_ptr<Chapter>()>& make, int argc,
+               char** argv);
+
+template <class C>
+int runChapter(const ChapterInfo& info, int argc, char** argv) {
+    return runChapter(info, [] { return std::make_unique<C>(); }, argc, argv);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,56 @@
+// The scene on the GPU: vertex buffers, textures, and the two ways of drawing it.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "common/gl/context.h"
+#include "common/gl/gl_object.h"
+#include "common/gl/program.h"
+#include "common/scene/culling.h"
+#include "common/scene/scene.h"
+
+namespace penumbra {
+
+/// Counts of what was submitted by one draw.
+struct DrawCounts {
+    std::size_t triangles = 0;
+    std::size_t drawCalls = 0;
+};
+
+/// Attribute locations in every vertex shader: 0 position (vec3), 1 normal (vec3), 2 uv (vec2).
+class GpuScene {
+   public:
+    GpuScene(const Scene& scene, const Capabilities& capabilities);
+
+    /// Depth-only: positions alone, through an index buffer in which equal positions are one vertex
+    /// (meshoptimizer). Closed parts are drawn with back faces culled when `cullClosed` is true (front faces instead if
+    /// `cullFrontOfClosed`). Leaves culling disabled. The caller has prepared its program.
+    struct DepthDraw {
+        const VisibleClusters* visible = nullptr;
+        bool cullClosed = true;
+        bool frontFacesInstead = false;  ///< cull front faces of closed parts: chapter 03's front-face culling
+        int exceptPart = -1;             ///< a light's own surface
+    };
+    DrawCounts drawDepth(const DepthDraw& draw) const;
+
+    /// Full attributes, one material at a time: sets the uniforms of shaders/common/material.glsl on `program` before
+    /// each draw (uDiffuse, uSpecular, uShininess, uEmission, uDiffuseTexture, uHasTexture, uDoubleSided).
+    DrawCounts drawShaded(Program& program, const VisibleClusters& visible) const;
+
+    const Scene& scene() const { return *scene_; }
+
+   private:
+    void drawRanges(const std::vector<IndexRange>& ranges, DrawCounts& counts) const;
+
+    const Scene* scene_;
+    Capabilities capabilities_;
+    GlBuffer positions_, normals_, uvs_, indices_, depthIndices_;
+    GlVertexArray shadedArray_, depthArray_;
+    std::vector<GlTexture> textures_;
+    GlTexture white_;
+};
+
+}  // namespace penumbra
