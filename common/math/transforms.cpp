@@ -7,11 +7,6 @@ namespace penumbra {
 
 namespace {
 
-/// 1 - near / far without cancellation when the two are close, and 1 for an infinite far plane.
-double oneMinusRatio(double near, double far) {
-    return std::isinf(far) ? 1.0 : (far - near) / far;
-}
-
 /// The axis that is least parallel to `direction`.
 glm::dvec3 leastParallelAxis(const glm::dvec3& direction) {
     const glm::dvec3 a = glm::abs(direction);
@@ -25,7 +20,7 @@ glm::dmat4 perspective(double verticalFov, double aspect, double near, double fa
     // Written in near / far, which is 0 for an infinite far plane: the limit needs no branch of its own.
     const double cotangent = 1.0 / std::tan(0.5 * verticalFov);
     const double ratio = near / far;
-    const double scale = 1.0 / oneMinusRatio(near, far);
+    const double scale = 1.0 / (1.0 - ratio);
     glm::dmat4 clipFromView(0.0);
     clipFromView[0][0] = cotangent / aspect;
     clipFromView[1][1] = cotangent;
