@@ -1,4 +1,5 @@
-// What a chapter program is. `runChapter` gives it a window, a headless renderer, a test subject and a benchmark.
+// What a chapter program is. `runChapter` gives it a window, a headless renderer, a test subject and a
+// benchmark.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "common/app/parameters.h"
+#include "common/app/pass_timer.h"
 #include "common/gl/context.h"
 #include "common/image/image.h"
 #include "common/scene/gpu_scene.h"
@@ -18,38 +20,49 @@
 
 namespace penumbra {
 
-/// Named counters of the report's "work" object, e.g. shadow_maps_rendered. Of one frame: cleared before each.
+/// Named counters of the report's "work" object, e.g. shadow_maps_rendered. Of one frame: cleared before
+/// each.
 using WorkCounters = std::map<std::string, std::int64_t>;
 
 struct ViewInfo {
-    std::string name;      ///< "color", "visibility", "depth", ...
-    std::string help;      ///< what the picture shows
-    bool scalar = false;   ///< 1 channel: shown as grey (or false colour), stored as one channel
+    std::string name;     ///< "color", "visibility", "depth", ...
+    std::string help;     ///< what the picture shows
+    bool scalar = false;  ///< 1 channel: shown as grey (or false colour), stored as one channel
     bool falseColour = false;
+    /// Of an rgb view: what the scene's exposure is multiplied by. 1: values are radiance; 1/pi: irradiance;
+    /// 0: values are colours in [0,1] already and are shown as they are.
+    double exposureScale = 1.0;
 };
 
 struct ChapterInfo {
-    std::string name;      ///< "03_polygon_offset"
-    std::string idea;      ///< one line: the new idea
+    std::string name;             ///< "03_polygon_offset"
+    std::string idea;             ///< one line: the new idea
     std::vector<ViewInfo> views;  ///< color and visibility first
-    bool needsGl = true;   ///< false: renders on the CPU (chapter 00)
+    bool needsGl = true;          ///< false: renders on the CPU (chapter 00)
 };
 
 /// Everything one frame needs. Positions are relative to scene.origin.
 struct Frame {
     const Scene& scene;
-    const GpuScene* gpu;          ///< null for a CPU chapter
-    const Context* context;       ///< null for a CPU chapter
+    const GpuScene* gpu;     ///< null for a CPU chapter
+    const Context* context;  ///< null for a CPU chapter
     const Camera& camera;
-    glm::ivec2 size;              ///< pixels
+    glm::ivec2 size;  ///< pixels
     std::string view;
-    std::uint32_t framebuffer;    ///< RGBA32F (RGBA16F or RGBA8 in the fallback) and depth; bound and with viewport set on entry
+    std::uint32_t framebuffer;  ///< RGBA32F (RGBA16F or RGBA8 in the fallback) and depth; bound and with
+                                ///< viewport set on entry
     WorkCounters& work;
     std::uint32_t seed;
-    bool skip;                    ///< false: --skip-none, do all the work (same picture)
+    bool skip;  ///< false: --skip-none, do all the work (same picture)
     /// CPU chapters put their picture here (1 or 3 channels).
     FloatImage* cpuPicture;
     const ProgressCallback& progress;
+    /// Times passes by name: `PassScope scope(frame.passTimer, "depth");`. Null unless --pass-times.
+    PassTimer* passTimer = nullptr;
+    /// Render shadow maps again although nothing changed: set while timing, so that frame_ms is the price of
+    /// a frame in which the light moves. --still clears it, and then what was kept from the frame before may
+    /// be used.
+    bool renderMapsAgain = false;
 };
 
 /// What a truth needs besides the frame.
@@ -60,11 +73,11 @@ struct TruthRequest {
     glm::ivec2 size;
     std::string view;
     const ProgressCallback& progress;
-    const Context* context;       ///< null for a CPU chapter
+    const Context* context;  ///< null for a CPU chapter
 };
 
 class Chapter {
-   public:
+ public:
     virtual ~Chapter() = default;
     /// Declares the parameters; called once, before anything else.
     virtual void declare(Parameters& parameters) = 0;
@@ -84,7 +97,8 @@ int runChapter(const ChapterInfo& info, const std::function<std::unique_ptr<Chap
 
 template <class C>
 int runChapter(const ChapterInfo& info, int argc, char** argv) {
-    return runChapter(info, [] { return std::make_unique<C>(); }, argc, argv);
+    return runChapter(
+        info, [] { return std::make_unique<C>(); }, argc, argv);
 }
 
 }  // namespace penumbra

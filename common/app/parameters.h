@@ -1,4 +1,5 @@
-// A chapter's parameters, each declared once: it becomes a flag, a slider, a column of the report, an axis of the benchmark.
+// A chapter's parameters, each declared once: it becomes a flag, a slider, a column of the report, an axis of
+// the benchmark.
 #pragma once
 
 #include <functional>
@@ -10,31 +11,34 @@ namespace penumbra {
 
 /// One declared parameter; `value` points into the chapter's own struct.
 struct Parameter {
-    std::string name;   ///< kebab-case, the flag without dashes
-    std::string help;   ///< one sentence: meaning, and the symptom at each end
-    std::string unit;   ///< "texels", "degrees", "metres", "" (pure number)
+    std::string name;  ///< kebab-case, the flag without dashes
+    std::string help;  ///< one sentence: meaning, and the symptom at each end
+    std::string unit;  ///< "texels", "degrees", "metres", "" (pure number)
     std::variant<int*, float*, bool*, std::string*> value;
-    double low = 0.0;   ///< inclusive range of int and float
+    double low = 0.0;  ///< inclusive range of int and float
     double high = 0.0;
     std::vector<std::string> choices;  ///< of a string parameter
     std::variant<int, float, bool, std::string> defaultValue;
 };
 
 class Parameters {
-   public:
-    void add(const std::string& name, int& value, int low, int high, const std::string& unit, const std::string& help);
+ public:
+    void add(const std::string& name, int& value, int low, int high, const std::string& unit,
+             const std::string& help);
     void add(const std::string& name, float& value, float low, float high, const std::string& unit,
              const std::string& help);
     void add(const std::string& name, bool& value, const std::string& help);
-    void add(const std::string& name, std::string& value, std::vector<std::string> choices, const std::string& help);
+    void add(const std::string& name, std::string& value, std::vector<std::string> choices,
+             const std::string& help);
 
     const std::vector<Parameter>& all() const { return parameters_; }
-    /// Sets from text. Throws UsageError: unknown name, not a number, NaN, out of range (and says the range), no such choice.
+    /// Sets from text. Throws UsageError: unknown name, not a number, NaN, out of range (and says the range),
+    /// no such choice.
     void set(const std::string& name, const std::string& text);
     /// For the report and --list-parameters.
     std::string toJson(bool valuesOnly) const;
 
-   private:
+ private:
     std::vector<Parameter> parameters_;
 };
 

@@ -1,0 +1,131 @@
+#include "common/image/file_write.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <mutex>
+
+#include "common/error.h"
+
+namespace penumbra {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What a signal handler may look at: a fixed buffer and a flag. One write at a time (writeMutex), so one is
+// enough.
+std::mutex writeMutex;
+char unfinishedPath[PATH_MAX];
+std::atomic<bool> unfinished{false};
+
+[[noreturn]] void failWrite(const fs::path& file, const std::string& why) {
+    throw Error(
+        fmt::format("{}: cannot be written: {}; choose another file or free the place", file.string(), why));
+}
+
+struct Descriptor {
+    int fd;
+    ~Descriptor() {
+        if (fd >= 0) ::close(fd);
+    }
+};
+
+void writeAll(int fd, std::string_view bytes, const fs::path& file) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) failWrite(file, std::strerror(errno));
+        bytes.remove_prefix(std::size_t(written));
+    }
+}
+
+void makeFolders(const fs::path& file) {
+    const fs::path folder = file.parent_path();
+    if (folder.empty()) return;
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) failWrite(file, fmt::format("no folder {} ({})", folder.string(), error.message()));
+}
+
+bool isSpecial(const fs::path& file) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+/// The file that a name stands for: through symbolic links, so that a link stays a link.
+fs::path resolved(const fs::path& file) {
+    std::error_code error;
+    const fs::path target = fs::weakly_canonical(file, error);
+    return error ? file : target;
+}
+
+/// A new, empty file beside `file`, registered for removal until `release`d or destroyed.
+class TemporaryFile {
+ public:
+    explicit TemporaryFile(const fs::path& file) : lock_(writeMutex) {
+        if (fs::is_directory(file)) failWrite(file, "it is a folder");
+        std::string name = file.string() + ".part-XXXXXX";
+        if (name.size() >= sizeof unfinishedPath) failWrite(file, "its name is too long");
+        std::memcpy(unfinishedPath, name.c_str(), name.size() + 1);
+        fd_.fd = ::mkstemp(unfinishedPath);
+        if (fd_.fd < 0) failWrite(file, std::strerror(errno));
+        unfinished = true;
+        ::fchmod(fd_.fd, permissionsOf(file));
+    }
+    ~TemporaryFile() { removeUnfinishedFile(); }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    int descriptor() const { return fd_.fd; }
+    void renameTo(const fs::path& file) {
+        if (::rename(unfinishedPath, file.c_str()) != 0) failWrite(file, std::strerror(errno));
+        unfinished = false;
+    }
+
+ private:
+    /// mkstemp makes private files; a picture should have the permissions that any new file gets.
+    static mode_t permissionsOf(const fs::path& file) {
+        struct stat existing {};
+        if (::stat(file.c_str(), &existing) == 0) return existing.st_mode & 0777;
+        const mode_t mask = ::umask(0);
+        ::umask(mask);
+        return 0666 & ~mask;
+    }
+
+    std::lock_guard<std::mutex> lock_;
+    Descriptor fd_{-1};
+};
+
+}  // namespace
+
+void writeFile(const fs::path& file, std::string_view bytes) {
+    makeFolders(file);
+    if (isSpecial(file)) {
+        const Descriptor device{::open(file.c_str(), O_WRONLY | O_CLOEXEC)};
+        if (device.fd < 0) failWrite(file, std::strerror(errno));
+        return writeAll(device.fd, bytes, file);
+    }
+    const fs::path target = resolved(file);
+    TemporaryFile temporary(target);
+    writeAll(temporary.descriptor(), bytes, file);
+    temporary.renameTo(target);
+}
+
+void requireWritable(const fs::path& file) {
+    makeFolders(file);
+    if (isSpecial(file)) return;
+    const TemporaryFile removedAgain(resolved(file));
+}
+
+void removeUnfinishedFile() noexcept {
+    if (unfinished.exchange(false)) ::unlink(unfinishedPath);
+}
+
+}  // namespace penumbra

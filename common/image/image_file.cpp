@@ -1,0 +1,169 @@
+#include "common/image/image_file.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "common/error.h"
+#include "common/image/file_write.h"
+#include "common/image/srgb.h"
+
+namespace penumbra {
+namespace {
+
+constexpr int channelLimit = 64;
+constexpr std::size_t pixelLimit = std::size_t(1) << 30;
+
+std::string lowerExtension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+/// OpenImageIO's messages may have several lines; ours have one.
+std::string oneLine(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text.empty() ? "unknown format" : text;
+}
+
+OIIO::ImageSpec specOf(const FloatImage& image, OIIO::TypeDesc type) {
+    return OIIO::ImageSpec(image.width, image.height, image.channels, type);
+}
+
+/// Encodes into memory: what reaches the disk is then one write of a finished file.
+std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels,
+                   const std::filesystem::path& file) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    auto output = OIIO::ImageOutput::create(format);
+    if (!output || !output->set_ioproxy(&memory) || !output->open(format, spec) ||
+        !output->write_image(type, pixels) || !output->close()) {
+        const std::string why = output ? output->geterror() : OIIO::geterror();
+        throw Error(
+            fmt::format("{}: OpenImageIO cannot encode this picture: {}", file.string(), oneLine(why)));
+    }
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string encodeExr(const FloatImage& image, const std::map<std::string, std::string>& metadata,
+                      const std::filesystem::path& file) {
+    OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::FLOAT);
+    spec.attribute("compression", "zip");
+    for (const auto& [name, value] : metadata) spec.attribute(name, value);
+    return encode("memory.exr", spec, OIIO::TypeDesc::FLOAT, image.values.data(), file);
+}
+
+std::string encodePng(const FloatImage& image, const std::filesystem::path& file) {
+    std::vector<std::uint8_t> bytes(image.values.size());
+    std::transform(image.values.begin(), image.values.end(), bytes.begin(), srgbByte);
+    OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    return encode("memory.png", spec, OIIO::TypeDesc::UINT8, bytes.data(), file);
+}
+
+void requireReadable(const OIIO::ImageSpec& spec, std::size_t maxPixels, const std::string& name) {
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 ||
+        spec.nchannels > channelLimit)
+        throw Error(fmt::format("{}: not a picture: {} x {} x {} pixels of {} channels", name, spec.width,
+                                spec.height, spec.depth, spec.nchannels));
+    if (std::size_t(spec.width) * std::size_t(spec.height) > maxPixels)
+        throw Error(fmt::format("{}: {} x {} pixels is more than the limit of {}; make it smaller", name,
+                                spec.width, spec.height, maxPixels));
+}
+
+/// Colour bytes as stored, not multiplied by alpha: the default would darken transparent texels.
+OIIO::ImageSpec untouchedAlpha() {
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    return config;
+}
+
+bool isSrgbEncoded(const OIIO::ImageSpec& spec) {
+    return spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16;
+}
+
+void decodeColour(FloatImage& image) {
+    const bool hasAlpha = image.channels == 2 || image.channels == 4;
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        if (!hasAlpha || int(i % std::size_t(image.channels)) != image.channels - 1)
+            image.values[i] = decodeSrgb(image.values[i]);
+}
+
+/// Grey, grey + alpha, RGB or RGBA (more: the first four) to RGBA.
+void expandToRgba(const std::vector<std::uint8_t>& source, int channels, std::vector<std::uint8_t>& rgba) {
+    for (std::size_t i = 0; i < rgba.size() / 4; ++i) {
+        const std::uint8_t* in = &source[i * std::size_t(channels)];
+        const bool grey = channels < 3;
+        rgba[4 * i + 0] = in[0];
+        rgba[4 * i + 1] = in[grey ? 0 : 1];
+        rgba[4 * i + 2] = in[grey ? 0 : 2];
+        rgba[4 * i + 3] = channels == 2 ? in[1] : channels >= 4 ? in[3] : 255;
+    }
+}
+
+const char* formatByMagic(const std::uint8_t* bytes, std::size_t count) {
+    if (count >= 8 && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G')
+        return "memory.png";
+    if (count >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff) return "memory.jpg";
+    return nullptr;
+}
+
+}  // namespace
+
+void writeImage(const std::filesystem::path& file, const FloatImage& image,
+                const std::map<std::string, std::string>& metadata) {
+    if (image.values.empty()) throw Error(fmt::format("{}: the picture to write is empty", file.string()));
+    const std::string extension = lowerExtension(file);
+    if (extension == ".exr") return writeFile(file, encodeExr(image, metadata, file));
+    if (extension != ".png")
+        throw Error(
+            fmt::format("{}: unknown picture format \"{}\"; use .png or .exr", file.string(), extension));
+    if (image.channels != 1 && image.channels != 3)
+        throw Error(fmt::format("{}: a .png takes 1 or 3 channels, not {}", file.string(), image.channels));
+    writeFile(file, encodePng(image, file));
+}
+
+FloatImage readImage(const std::filesystem::path& file) {
+    const OIIO::ImageSpec config = untouchedAlpha();
+    auto input = OIIO::ImageInput::open(file.string(), &config);
+    if (!input)
+        throw Error(
+            fmt::format("{}: cannot be read as a picture: {}", file.string(), oneLine(OIIO::geterror())));
+    const OIIO::ImageSpec spec = input->spec();
+    requireReadable(spec, pixelLimit, file.string());
+    FloatImage image(spec.width, spec.height, spec.nchannels);
+    if (!input->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, image.values.data()))
+        throw Error(fmt::format("{}: broken picture: {}", file.string(), oneLine(input->geterror())));
+    if (isSrgbEncoded(spec)) decodeColour(image);
+    return image;
+}
+
+DecodedImage decodeImage(const std::uint8_t* bytes, std::size_t count, const std::string& name,
+                         std::size_t maxPixels) {
+    const char* format = formatByMagic(bytes, count);
+    if (!format) throw Error(fmt::format("{}: neither a PNG nor a JPEG picture", name));
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(bytes), count);
+    const OIIO::ImageSpec config = untouchedAlpha();
+    auto input = OIIO::ImageInput::open(format, &config, &memory);
+    if (!input) throw Error(fmt::format("{}: broken picture: {}", name, oneLine(OIIO::geterror())));
+    const OIIO::ImageSpec spec = input->spec();
+    requireReadable(spec, maxPixels, name);
+    DecodedImage image{spec.width, spec.height, {}};
+    const std::size_t pixels = std::size_t(spec.width) * std::size_t(spec.height);
+    std::vector<std::uint8_t> stored(pixels * std::size_t(spec.nchannels));
+    if (!input->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, stored.data()))
+        throw Error(fmt::format("{}: broken picture: {}", name, oneLine(input->geterror())));
+    image.rgba.resize(4 * pixels);
+    expandToRgba(stored, spec.nchannels, image.rgba);
+    return image;
+}
+
+void writeTextFile(const std::filesystem::path& file, const std::string& text) {
+    writeFile(file, text);
+}
+
+}  // namespace penumbra
