@@ -1,0 +1,280 @@
+#include "common/truth/ray_tracer.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "common/error.h"
+#include "common/truth/segment_test.h"
+
+namespace penumbra {
+
+namespace {
+
+#if RTC_VERSION_MAJOR >= 4
+using EmbreeContext = RTCRayQueryContext;
+#else
+using EmbreeContext = RTCIntersectContext;
+#endif
+
+constexpr int packetSize = 16;
+
+/// What the filters need to know about the rays being traced. `embree` comes first: Embree hands back its
+/// address.
+struct Query {
+    EmbreeContext embree;
+    const RayTracer* tracer = nullptr;
+    std::uint32_t ignoreBegin = 0;  ///< triangles [ignoreBegin, ignoreEnd) are not there
+    std::uint32_t ignoreEnd = 0;
+    const ShadowRay* rays = nullptr;  ///< indexed by the id of an Embree ray
+    const glm::vec3* vertices = nullptr;
+    const std::uint32_t* indices = nullptr;
+
+    bool ignores(std::uint32_t triangle) const { return triangle >= ignoreBegin && triangle < ignoreEnd; }
+    std::array<glm::dvec3, 3> triangle(std::uint32_t index) const {
+        const std::uint32_t* i = indices + 3 * std::size_t(index);
+        return {glm::dvec3(vertices[i[0]]), glm::dvec3(vertices[i[1]]), glm::dvec3(vertices[i[2]])};
+    }
+};
+
+void ignorePartFilter(const RTCFilterFunctionNArguments* arguments) {
+    const auto* query = reinterpret_cast<const Query*>(arguments->context);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] != -1) continue;
+        if (query->ignores(RTCHitN_primID(arguments->hit, arguments->N, i))) arguments->valid[i] = 0;
+    }
+}
+
+/// Embree's float arithmetic found a candidate; the double test decides.
+void exactShadowFilter(const RTCFilterFunctionNArguments* arguments) {
+    const auto* query = reinterpret_cast<const Query*>(arguments->context);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] != -1) continue;
+        const std::uint32_t candidate = RTCHitN_primID(arguments->hit, arguments->N, i);
+        const ShadowRay& ray = query->rays[RTCRayN_id(arguments->ray, arguments->N, i)];
+        const bool blocks = candidate != ray.triangle && !query->ignores(candidate) &&
+                            crossTriangle({ray.origin, ray.target, ray.towardsInfinity},
+                                          query->triangle(candidate)) == Crossing::inside;
+        if (!blocks) arguments->valid[i] = 0;
+    }
+}
+
+double largestCoordinate(const glm::dvec3& p) {
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+/// Barycentric coordinates (of b and c) where the line meets the plane of the triangle, forced into the
+/// triangle: Embree found the hit with a ray rounded to float, so the exact ray may pass the edge by a hair.
+glm::dvec2 exactBarycentrics(const Ray& ray, const std::array<glm::dvec3, 3>& t, const glm::dvec2& fallback) {
+    const glm::dvec3 pa = t[0] - ray.origin, pb = t[1] - ray.origin, pc = t[2] - ray.origin;
+    const double u = glm::dot(ray.direction, glm::cross(pb, pc));
+    const double v = glm::dot(ray.direction, glm::cross(pc, pa));
+    const double w = glm::dot(ray.direction, glm::cross(pa, pb));
+    const double sum = u + v + w;
+    if (!(std::abs(sum) > 0.0)) return fallback;  // edge-on: any point of the crossing line is as good
+    const glm::dvec2 b = glm::clamp(glm::dvec2(v, w) / sum, 0.0, 1.0);
+    return b.x + b.y > 1.0 ? b / (b.x + b.y) : b;
+}
+
+}  // namespace
+
+struct RayTracer::State {
+    explicit State(const Scene& s) : scene(s) {}
+    ~State() {
+        if (embree) rtcReleaseScene(embree);
+        if (device) rtcReleaseDevice(device);
+    }
+
+    const Scene& scene;
+    std::once_flag once;
+    RTCDevice device = nullptr;
+    RTCScene embree = nullptr;
+    double reach = 0.0;  ///< largest coordinate of the scene, metres
+
+    void build();
+    RTCScene built() {
+        std::call_once(once, [this] { build(); });
+        return embree;
+    }
+    Query query(int ignorePart) const;
+    std::uint32_t partOf(std::uint32_t triangle) const;
+    Hit hitAt(std::uint32_t triangle, const glm::dvec2& barycentric) const;
+    void traceSixteen(const ShadowRay* rays, int count, std::uint8_t* blocked, Query& query) const;
+};
+
+void RayTracer::State::build() {
+    device = rtcNewDevice(nullptr);
+    if (!device)
+        throw Error("Embree does not start (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
+    embree = rtcNewScene(device);
+    rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_HIGH);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Embree keeps its own copy: it reads 16 bytes at a time, past the end of a tight array of vec3.
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             sizeof(glm::vec3), scene.positions.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
+                                            scene.triangleCount());
+    if (vertices && indices) {
+        std::copy(scene.positions.begin(), scene.positions.end(), static_cast<glm::vec3*>(vertices));
+        std::copy(scene.indices.begin(), scene.indices.end(), static_cast<std::uint32_t*>(indices));
+        rtcSetGeometryIntersectFilterFunction(geometry, ignorePartFilter);
+        rtcSetGeometryOccludedFilterFunction(geometry, exactShadowFilter);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(embree, geometry);
+    }
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(embree);
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
+        throw Error("Embree cannot build scene '" + scene.name + "' (" +
+                    std::to_string(scene.triangleCount()) + " triangles): error " + std::to_string(error) +
+                    "; is memory short?");
+    }
+    if (!scene.bounds.empty()) {
+        reach = std::max(largestCoordinate(scene.bounds.lower), largestCoordinate(scene.bounds.upper));
+    }
+}
+
+Query RayTracer::State::query(int ignorePart) const {
+    Query query;
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&query.embree);
+#else
+    rtcInitIntersectContext(&query.embree);
+#endif
+    if (ignorePart >= 0 && std::size_t(ignorePart) < scene.parts.size()) {
+        query.ignoreBegin = scene.parts[ignorePart].firstTriangle;
+        query.ignoreEnd = query.ignoreBegin + scene.parts[ignorePart].triangleCount;
+    }
+    query.vertices = scene.positions.data();
+    query.indices = scene.indices.data();
+    return query;
+}
+
+std::uint32_t RayTracer::State::partOf(std::uint32_t triangle) const {
+    const auto after =
+        std::upper_bound(scene.parts.begin(), scene.parts.end(), triangle,
+                         [](std::uint32_t t, const Part& part) { return t < part.firstTriangle; });
+    return after == scene.parts.begin() ? 0u : std::uint32_t(after - scene.parts.begin() - 1);
+}
+
+Hit RayTracer::State::hitAt(std::uint32_t triangle, const glm::dvec2& barycentric) const {
+    const std::uint32_t* i = &scene.indices[3 * std::size_t(triangle)];
+    const glm::dvec3 a(scene.positions[i[0]]), b(scene.positions[i[1]]), c(scene.positions[i[2]]);
+    const double u = barycentric.x, v = barycentric.y;
+    Hit hit;
+    hit.valid = true;
+    hit.triangle = triangle;
+    hit.part = partOf(triangle);
+    hit.barycentric = barycentric;
+    // a + differences, not a weighted sum: on an axis-aligned plane the coordinate then comes out exactly.
+    hit.position = a + u * (b - a) + v * (c - a);
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    hit.geometricNormal = glm::length(n) > 0.0 ? glm::normalize(n) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 shading = (1.0 - u - v) * glm::dvec3(scene.normals[i[0]]) +
+                               u * glm::dvec3(scene.normals[i[1]]) + v * glm::dvec3(scene.normals[i[2]]);
+    hit.shadingNormal = glm::length(shading) > 0.0 ? glm::normalize(shading) : hit.geometricNormal;
+    const glm::dvec2 uvA(scene.uvs[i[0]]);
+    hit.uv = uvA + u * (glm::dvec2(scene.uvs[i[1]]) - uvA) + v * (glm::dvec2(scene.uvs[i[2]]) - uvA);
+    return hit;
+}
+
+RayTracer::RayTracer(const Scene& scene) : state_(std::make_unique<State>(scene)) {}
+RayTracer::~RayTracer() = default;
+const Scene& RayTracer::scene() const {
+    return state_->scene;
+}
+
+Hit RayTracer::nearest(const Ray& ray, int ignorePart) const {
+    RTCScene embree = state_->built();
+    Query query = state_->query(ignorePart);
+    RTCRayHit found{};
+    const glm::vec3 origin(ray.origin), direction(ray.direction);
+    found.ray.org_x = origin.x, found.ray.org_y = origin.y, found.ray.org_z = origin.z;
+    found.ray.dir_x = direction.x, found.ray.dir_y = direction.y, found.ray.dir_z = direction.z;
+    found.ray.tfar = std::numeric_limits<float>::infinity();
+    found.ray.mask = 0xffffffffu;
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &query.embree;
+    rtcIntersect1(embree, &found, &arguments);
+#else
+    rtcIntersect1(embree, &query.embree, &found);
+#endif
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    const std::uint32_t triangle = found.hit.primID;
+    const glm::dvec2 fallback(found.hit.u, found.hit.v);
+    return state_->hitAt(triangle, exactBarycentrics(ray, query.triangle(triangle), fallback));
+}
+
+void RayTracer::State::traceSixteen(const ShadowRay* rays, int count, std::uint8_t* blocked,
+                                    Query& query) const {
+    alignas(64) int valid[packetSize] = {};
+    alignas(64) RTCRay16 packet;
+    for (int i = 0; i < packetSize; ++i) {
+        const ShadowRay& ray = rays[std::min(i, count - 1)];
+        const glm::dvec3 direction = ray.towardsInfinity ? ray.target : ray.target - ray.origin;
+        const double length = glm::length(direction);
+        const double back = 0x1p-18 * std::max(reach, largestCoordinate(ray.origin));
+        const glm::dvec3 unit = direction / length;
+        const glm::vec3 o(ray.origin - back * unit), d(unit);
+        valid[i] = i < count && length > 0.0 ? -1 : 0;
+        packet.org_x[i] = o.x, packet.org_y[i] = o.y, packet.org_z[i] = o.z;
+        packet.dir_x[i] = d.x, packet.dir_y[i] = d.y, packet.dir_z[i] = d.z;
+        packet.tnear[i] = 0.0f;
+        packet.time[i] = 0.0f;
+        packet.mask[i] = 0xffffffffu;
+        packet.id[i] = unsigned(i);
+        packet.flags[i] = 0;
+        packet.tfar[i] = ray.towardsInfinity ? std::numeric_limits<float>::infinity()
+                                             : float((length + 2.0 * back) * (1.0 + 0x1p-20));
+    }
+    query.rays = rays;
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &query.embree;
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcOccluded16(valid, embree, &packet, &arguments);
+#else
+    query.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded16(valid, embree, &query.embree, &packet);
+#endif
+    for (int i = 0; i < count; ++i) blocked[i] = valid[i] == -1 && packet.tfar[i] < 0.0f ? 1 : 0;
+}
+
+void RayTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked,
+                         int ignorePart) const {
+    state_->built();
+    Query query = state_->query(ignorePart);
+    for (std::size_t first = 0; first < rays.size(); first += packetSize) {
+        const int count = int(std::min<std::size_t>(packetSize, rays.size() - first));
+        state_->traceSixteen(&rays[first], count, &blocked[first], query);
+    }
+}
+
+bool RayTracer::occluded(const Hit& from, const glm::dvec3& target, int ignorePart) const {
+    const ShadowRay ray{from.position, from.triangle, false, target};
+    std::uint8_t blocked = 0;
+    occluded(std::span(&ray, 1), std::span(&blocked, 1), ignorePart);
+    return blocked != 0;
+}
+
+bool RayTracer::occludedTowards(const Hit& from, const glm::dvec3& direction, int ignorePart) const {
+    const ShadowRay ray{from.position, from.triangle, true, direction};
+    std::uint8_t blocked = 0;
+    occluded(std::span(&ray, 1), std::span(&blocked, 1), ignorePart);
+    return blocked != 0;
+}
+
+}  // namespace penumbra
