@@ -1,0 +1,3 @@
+// Nothing to compute: the rasteriser has the depth already.
+void main() {
+}
