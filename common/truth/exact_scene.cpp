@@ -1,0 +1,121 @@
+#include "common/truth/exact_scene.h"
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/truth/cone_subtraction.h"
+
+namespace penumbra {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+double sumOfMagnitudes(const glm::dvec3& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+/// The segment from `start` to start + along, prepared for boxes.
+struct ShadowSegment {
+    glm::dvec3 start;
+    glm::dvec3 along;
+    glm::dvec3 inverse;
+
+    /// Slab test (Kay & Kajiya, SIGGRAPH 1986), widened by its rounding error so that no box with a hit is
+    /// missed (Ize, "Robust BVH Ray Traversal", JCGT 2013).
+    bool misses(const Aabb& box) const {
+        double enter = 0.0;
+        double leave = 1.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (along[axis] == 0.0) {  // 0 times infinity would be no number at all
+                if (start[axis] < box.lower[axis] || start[axis] > box.upper[axis]) return true;
+                continue;
+            }
+            const double a = (box.lower[axis] - start[axis]) * inverse[axis];
+            const double b = (box.upper[axis] - start[axis]) * inverse[axis];
+            enter = std::max(enter, std::min(a, b) * (1.0 - 8.0 * epsilon));
+            leave = std::min(leave, std::max(a, b) * (1.0 + 8.0 * epsilon));
+        }
+        return enter > leave;
+    }
+};
+
+/// Does the open segment cross the triangle? Written apart from segment_test.h on purpose, since it checks
+/// what that decides. Signed volumes of the segment with each edge, which are exactly negated when a
+/// neighbour runs along the edge the other way (Woop et al., "Watertight Ray/Triangle Intersection", JCGT
+/// 2013): a ray through a shared edge hits at least one of the two.
+bool crosses(const ShadowSegment& segment, const Triangle& triangle) {
+    const glm::dvec3 a = triangle[0] - segment.start;
+    const glm::dvec3 b = triangle[1] - segment.start;
+    const glm::dvec3 c = triangle[2] - segment.start;
+    const double u = glm::dot(segment.along, glm::cross(a + b, b - a));
+    const double v = glm::dot(segment.along, glm::cross(b + c, c - b));
+    const double w = glm::dot(segment.along, glm::cross(c + a, a - c));
+    if (std::min({u, v, w}) < 0.0 && std::max({u, v, w}) > 0.0) return false;
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double start = glm::dot(normal, a);  // distance of the start from the plane, times |normal|
+    const double rounding = 8.0 * epsilon * (sumOfMagnitudes(segment.start) + sumOfMagnitudes(a));
+    if (std::abs(start) <= rounding * glm::length(normal)) return false;
+    const double end = glm::dot(normal, a - segment.along);
+    return (start > 0.0 && end < 0.0) || (start < 0.0 && end > 0.0);
+}
+
+/// The triangles that reach into the pyramid, in scene order, so that the result does not depend on the
+/// hierarchy.
+std::span<const Triangle> gather(const TriangleBvh& bvh, const LightPyramid& pyramid, int ignorePart,
+                                 std::uint32_t excludedTriangle) {
+    thread_local std::vector<const TriangleBvh::Entry*> found;
+    thread_local std::vector<Triangle> occluders;
+    found.clear();
+    occluders.clear();
+    bvh.traverse([&](const Aabb& box) { return outside(pyramid, box); },
+                 [&](const TriangleBvh::Entry& entry) {
+                     if (entry.part != ignorePart && entry.triangle != excludedTriangle)
+                         found.push_back(&entry);
+                     return false;
+                 });
+    std::sort(found.begin(), found.end(),
+              [](const auto* a, const auto* b) { return a->triangle < b->triangle; });
+    for (const TriangleBvh::Entry* entry : found) occluders.push_back(entry->corners);
+    return occluders;
+}
+
+}  // namespace
+
+ExactScene::ExactScene(const Scene& scene) : bvh_(scene) {}
+
+bool ExactScene::occluded(const glm::dvec3& x, std::uint32_t excludedTriangle, const glm::dvec3& target,
+                          int ignorePart) const {
+    const ShadowSegment segment{x, target - x, 1.0 / (target - x)};
+    return bvh_.traverse([&](const Aabb& box) { return segment.misses(box); },
+                         [&](const TriangleBvh::Entry& entry) {
+                             return entry.part != ignorePart && entry.triangle != excludedTriangle &&
+                                    crosses(segment, entry.corners);
+                         });
+}
+
+double ExactScene::visibleFormFactor(const glm::dvec3& x, const glm::dvec3& n,
+                                     std::span<const glm::dvec3> polygon, int ignorePart,
+                                     std::uint32_t excludedTriangle) const {
+    return sumOverPyramids(x, n, polygon, [&](const LightPyramid& pyramid) {
+        return penumbra::visibleFormFactor(pyramid, gather(bvh_, pyramid, ignorePart, excludedTriangle));
+    });
+}
+
+std::vector<double> ExactScene::formFactorImage(const PlanarReceiver& receiver, const glm::ivec2& size,
+                                                std::span<const glm::dvec3> polygon, int ignorePart) const {
+    std::vector<double> image(std::size_t(size.x) * std::size_t(size.y));
+    const glm::dvec3 n = receiver.normal();
+    tbb::parallel_for(tbb::blocked_range2d<int>(0, size.y, 8, 0, size.x, 64), [&](const auto& range) {
+        for (int row = range.rows().begin(); row < range.rows().end(); ++row)
+            for (int column = range.cols().begin(); column < range.cols().end(); ++column)
+                image[std::size_t(row) * std::size_t(size.x) + std::size_t(column)] =
+                    visibleFormFactor(receiver.cellCentre(column, row, size), n, polygon, ignorePart);
+    });
+    return image;
+}
+
+}  // namespace penumbra
