@@ -15,25 +15,27 @@ enum class Api { desktop, es };  ///< OpenGL 3.3 core, or OpenGL ES 3.0
 struct ContextRequest {
     Backend backend = Backend::automatic;
     Api api = Api::desktop;
-    bool headless = true;            ///< automatic: never try a window
-    glm::ivec2 windowSize{1280, 800};///< window back end only, screen units
+    bool headless = true;              ///< automatic: never try a window
+    glm::ivec2 windowSize{1280, 800};  ///< window back end only, screen units
     std::string title = "Penumbra";
 };
 
 /// What the context can do beyond the common subset of OpenGL 3.3 and ES 3.0. Every use has a fallback.
 struct Capabilities {
     Api api = Api::desktop;
-    bool clipControl = false;        ///< glClipControl: reversed-Z is possible
-    bool floatColorBuffer = false;   ///< RGBA32F and R32F can be rendered to
-    bool multiDraw = false;          ///< glMultiDrawElements
+    bool clipControl = false;       ///< glClipControl: reversed-Z is possible
+    bool floatColorBuffer = false;  ///< RGBA32F and R32F can be rendered to
+    bool multiDraw = false;         ///< glMultiDrawElements
     bool clampToBorder = false;
     bool depthClamp = false;
     bool timerQuery = false;
+    bool polygonOffsetClamp = false;  ///< glPolygonOffsetClamp
+    bool logicOp = false;             ///< glLogicOp (not in ES)
 };
 
 /// A current OpenGL context. One per process at a time. Destroying it releases everything.
 class Context {
-   public:
+ public:
     virtual ~Context() = default;
     virtual Backend backend() const = 0;
     virtual GLFWwindow* window() const { return nullptr; }
@@ -41,15 +43,16 @@ class Context {
     const std::string& renderer() const { return renderer_; }  ///< GL_RENDERER
     const std::string& version() const { return version_; }    ///< GL_VERSION
 
-   protected:
+ protected:
     friend std::unique_ptr<Context> createContext(const ContextRequest&);
     Capabilities capabilities_;
     std::string renderer_;
     std::string version_;
 };
 
-/// Makes a context, makes it current, loads the GL functions, turns KHR_debug errors into exceptions at the next
-/// `checkGlErrors`. Throws Error with ONE line naming every back end tried, why each failed, and what to install.
+/// Makes a context, makes it current, loads the GL functions, turns KHR_debug errors into exceptions at the
+/// next `checkGlErrors`. Throws Error with ONE line naming every back end tried, why each failed, and what to
+/// install.
 std::unique_ptr<Context> createContext(const ContextRequest& request);
 
 const char* backendName(Backend backend);  ///< "auto", "window", "osmesa", "egl"
