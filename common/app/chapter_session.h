@@ -7,6 +7,7 @@
 
 #include "common/app/chapter.h"
 #include "common/app/command_line.h"
+#include "common/gl/render_target.h"
 
 namespace penumbra {
 
@@ -32,7 +33,12 @@ class ChapterSession {
     /// Draws one frame into `request.framebuffer` (bound, with the viewport set), or into `cpuPicture()`;
     /// clears the work counters first.
     void render(const FrameRequest& request);
-    /// Draws off screen and reads back: 1 channel for scalar views, else 3; top row first, linear.
+    /// The same off screen, whatever `request.framebuffer` says: into a target of its own, kept between
+    /// calls.
+    void renderOffScreen(FrameRequest request);
+    /// The frame of the latest `renderOffScreen`: 1 channel for scalar views, else 3; top row first, linear.
+    FloatImage readBack(const std::string& view) const;
+    /// Both.
     FloatImage picture(const FrameRequest& request);
 
     const ChapterInfo& info() const { return info_; }
@@ -40,6 +46,7 @@ class ChapterSession {
     Parameters& parameters() { return parameters_; }
     const Options& options() const { return options_; }
     const Scene& scene() const { return scene_; }
+    const Camera& camera() const { return scene_.cameras[std::size_t(options_.camera)]; }  ///< the chosen one
     Context* context() const { return context_.get(); }  ///< null for a CPU chapter
     const WorkCounters& work() const { return work_; }   ///< of the latest frame
     const FloatImage& cpuPicture() const { return cpuPicture_; }
@@ -51,6 +58,9 @@ class ChapterSession {
     /// parameter "light" selects (all lights without such a parameter), times 2^EV, times the view's
     /// exposureScale. 0: not tone-mapped.
     float exposureOf(const ViewInfo& view) const;
+    /// What a screen can show, 1 or 3 channels in [0,1], linear: tone-mapped, grey or in false colour, as the
+    /// view says.
+    FloatImage display(const FloatImage& picture, const ViewInfo& view) const;
 
  private:
     const ChapterInfo& info_;
@@ -64,6 +74,7 @@ class ChapterSession {
     Scene scene_;
     std::unique_ptr<Context> context_;
     std::unique_ptr<GpuScene> gpu_;
+    std::unique_ptr<RenderTarget> target_;
     std::unique_ptr<Chapter> chapter_;
 };
 

@@ -30,9 +30,8 @@ struct Options {
     std::filesystem::path output;      ///< empty: none
     std::filesystem::path report;      ///< empty: none; "-": standard output
     bool compareTruth = false;
-    bool useCache = true;  ///< exact answers may be kept under out/
-    int runs = 1;          ///< timed frames
-    bool still = false;    ///< timed frames may keep maps from the frame before
+    int runs = 1;        ///< timed frames
+    bool still = false;  ///< timed frames may keep maps from the frame before
     bool passTimes = false;
     std::uint32_t seed = 1;
     bool skip = true;  ///< false: --skip-none

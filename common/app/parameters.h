@@ -42,4 +42,7 @@ class Parameters {
     std::vector<Parameter> parameters_;
 };
 
+/// The shortest decimal that is this value in single precision: "0.1", "512", "1e-06".
+std::string shortNumber(double value);
+
 }  // namespace penumbra

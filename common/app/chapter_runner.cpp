@@ -1,0 +1,96 @@
+// runChapter: one command line, a window or a picture, an exit status.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+#include "common/app/chapter.h"
+#include "common/app/chapter_session.h"
+#include "common/app/command_line.h"
+#include "common/app/headless_run.h"
+#include "common/app/interrupt.h"
+#include "common/app/progress.h"
+#include "common/app/window_loop.h"
+#include "common/error.h"
+
+namespace penumbra {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+bool displayAnnounced() {
+    const auto isSet = [](const char* variable) {
+        const char* value = std::getenv(variable);
+        return value && *value;
+    };
+    return isSet("DISPLAY") || isSet("WAYLAND_DISPLAY");
+}
+
+/// Shows the chapter in a window and returns the exit status; none: there can be no window.
+std::optional<int> runInWindow(ChapterSession& session) {
+    if (session.context()) {
+        if (!session.context()->window()) return std::nullopt;
+        return runWindow({.session = session});
+    }
+    ContextRequest request;
+    request.backend = session.options().backend;
+    request.headless = false;
+    request.title = "Penumbra " + session.info().name;
+    const auto context = createContext(request);
+    if (!context->window()) return std::nullopt;
+    return runWindow({.session = session, .context = context.get()});
+}
+
+int run(const ChapterInfo& info, const std::function<std::unique_ptr<Chapter>()>& make, int argc,
+         char** argv) {
+    const Clock::time_point start = Clock::now();
+    Parameters parameters;
+    std::unique_ptr<Chapter> chapter = make();
+    chapter->declare(parameters);
+    std::optional<Options> options = parseCommandLine(info, parameters, argc, argv);
+    if (!options) return exitFine;
+    const bool headless = options->headless || (options->backend != Backend::window && !displayAnnounced());
+    if (headless) prepareOutputs(info, *options);
+    Progress progress(options->quiet);
+    ChapterSession session(info, std::move(chapter), parameters, *options, headless, progress.callback());
+    if (!headless) {
+        if (const std::optional<int> status = runInWindow(session)) return *status;
+        prepareOutputs(info, *options);
+    }
+    runHeadless(session, progress, start);
+    return exitFine;
+}
+
+/// What was printed must have arrived: `--report - > /dev/full` has failed.
+void requirePrinted() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+        throw Error("standard output cannot be written: is the disk full?");
+}
+
+int fail(const ChapterInfo& info, const char* what, ExitStatus status) {
+    fmt::print(stderr, "{}: {}\n", info.name, what);
+    return status;
+}
+
+}  // namespace
+
+int runChapter(const ChapterInfo& info, const std::function<std::unique_ptr<Chapter>()>& make, int argc,
+               char** argv) {
+    try {
+        endCleanlyOnInterrupt();
+        const int status = run(info, make, argc, argv);
+        requirePrinted();
+        return status;
+    } catch (const Error& error) {
+        return fail(info, error.what(), error.status());
+    } catch (const std::bad_alloc&) {
+        return fail(info, "not enough memory for this picture; use a smaller --size or --antialias",
+                    exitFailed);
+    } catch (const std::exception& error) {
+        return fail(info, error.what(), exitFailed);
+    }
+}
+
+}  // namespace penumbra

@@ -1,0 +1,181 @@
+#include "common/app/headless_run.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <ctime>
+#include <optional>
+#include <thread>
+
+#include "common/app/report.h"
+#include "common/app/truth_comparison.h"
+#include "common/error.h"
+#include "common/gl/gl.h"
+#include "common/image/file_write.h"
+#include "common/image/image_file.h"
+#include "common/image/resample.h"
+#include "common/image/tone_map.h"
+
+namespace penumbra {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// CPU time of all threads of this process: on a software renderer, the work itself.
+double processCpuMs() {
+    timespec time{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * double(time.tv_sec) + 1e-6 * double(time.tv_nsec);
+}
+
+void finish(const ChapterSession& session) {
+    if (session.context()) glFinish();
+}
+
+/// The view that is drawn and timed. Truth and error are not drawn: they compare this one.
+std::string drawnView(const ChapterSession& session) {
+    const Options& options = session.options();
+    if (options.view != "truth" && options.view != "error") return options.view;
+    for (const ViewInfo& view : session.info().views)
+        if (view.name == "visibility") return view.name;
+    return session.info().views.front().name;
+}
+
+void timeFrames(ChapterSession& session, FrameRequest request, Report& report) {
+    const Options& options = session.options();
+    if (session.context())
+        session.renderOffScreen(request);  // compiles shaders; a CPU chapter has nothing to warm up
+    finish(session);
+    request.renderMapsAgain = !options.still;
+    std::vector<double> wall, cpu;
+    for (int run = 0; run < options.runs; ++run) {
+        const double cpuStart = processCpuMs();
+        const Clock::time_point start = Clock::now();
+        session.renderOffScreen(request);
+        finish(session);
+        wall.push_back(millisecondsSince(start));
+        cpu.push_back(processCpuMs() - cpuStart);
+        if (options.runs > 1) session.progress()((run + 1.0) / options.runs);
+    }
+    report.frameMs = statisticsOf(wall);
+    report.frameCpuMs = statisticsOf(cpu);
+    report.work = session.work();
+}
+
+/// Further frames, so that waiting for each pass does not disturb the times of the frames above.
+void timePasses(ChapterSession& session, FrameRequest request, Report& report) {
+    if (!session.options().passTimes) return;
+    PassTimer timer(session.context() != nullptr);
+    request.passTimer = &timer;
+    request.renderMapsAgain = !session.options().still;
+    for (int run = 0; run < session.options().runs; ++run) session.renderOffScreen(request);
+    for (const auto& [pass, times] : timer.times()) report.passesMs[pass] = statisticsOf(times);
+}
+
+Report describe(ChapterSession& session, const std::string& view) {
+    const Options& options = session.options();
+    Report report;
+    report.chapter = session.info().name;
+    report.scene = session.scene().name;
+    report.view = view;
+    report.size = options.size;
+    report.antialias = options.antialias;
+    report.camera = options.camera;
+    report.seed = options.seed;
+    report.skip = options.skip;
+    report.still = options.still;
+    const Context* context = session.context();
+    report.renderer = context ? context->renderer() : "CPU";
+    report.backend = context ? backendName(context->backend()) : "none";
+    report.api = context ? apiName(context->capabilities().api) : "none";
+    report.threads = int(std::thread::hardware_concurrency());
+    report.parametersJson = session.parameters().toJson(true);
+    report.notes = session.scene().notes;
+    return report;
+}
+
+/// Of the error picture: what the brightest colour stands for. Fixed for visibility, so that chapters can be
+/// compared.
+float errorRange(const TruthComparison& comparison) {
+    return comparison.report.quantity == "visibility" ? 1.0f : float(comparison.report.figures.maxAbs);
+}
+
+/// The picture to write, linear values for .exr, for the screen otherwise.
+FloatImage outputPicture(const ChapterSession& session, const FloatImage& picture, const std::string& drawn,
+                         const std::optional<TruthComparison>& comparison) {
+    const Options& options = session.options();
+    const bool linear = options.output.extension() == ".exr" || options.output.extension() == ".EXR";
+    if (options.view == "truth") {
+        if (linear) return definedTruth(*comparison);
+        const FloatImage shown =
+            session.display(comparison->truth.value, session.view(comparison->report.view));
+        return greyWhereUndefined(shown, comparison->truth.mask);
+    }
+    if (options.view == "error") {
+        const FloatImage error = absoluteError(*comparison);
+        if (linear) return error;
+        return greyWhereUndefined(falseColour(error, 0.0f, errorRange(*comparison)), comparison->truth.mask);
+    }
+    return linear ? picture : session.display(picture, session.view(drawn));
+}
+
+/// What a reference picture must carry to be made again; nothing that differs between two runs.
+std::map<std::string, std::string> provenance(const ChapterSession& session, const Report& report) {
+    return {{"penumbra:version", versionText},
+            {"penumbra:chapter", report.chapter},
+            {"penumbra:scene", report.scene},
+            {"penumbra:view", session.options().view},
+            {"penumbra:seed", std::to_string(report.seed)},
+            {"penumbra:parameters", report.parametersJson},
+            {"penumbra:renderer", report.renderer}};
+}
+
+void tell(const Options& options, const Report& report) {
+    if (options.report == "-") {
+        std::fputs(reportJson(report).c_str(), stdout);
+        return;
+    }
+    if (!options.report.empty()) writeTextFile(options.report, reportJson(report));
+    if (options.quiet) return;
+    fmt::print("{}", reportSummary(report));
+    if (!options.output.empty()) fmt::print("  wrote   {}\n", options.output.string());
+    if (!options.report.empty()) fmt::print("  wrote   {}\n", options.report.string());
+}
+
+}  // namespace
+
+void prepareOutputs(const ChapterInfo& info, Options& options) {
+    if (options.output.empty() && options.report.empty()) options.output = "out/" + info.name + ".png";
+    if (!options.output.empty()) requireWritable(options.output);
+    if (!options.report.empty() && options.report != "-") requireWritable(options.report);
+}
+
+void runHeadless(ChapterSession& session, Progress& progress, Clock::time_point start) {
+    const Options& options = session.options();
+    const std::string drawn = drawnView(session);
+    const FrameRequest request{
+        .view = drawn, .camera = session.camera(), .size = options.size * options.antialias};
+    Report report = describe(session, drawn);
+    report.setupMs = millisecondsSince(start);
+    progress.start("rendering");
+    timeFrames(session, request, report);
+    const FloatImage picture = boxFilter(session.readBack(drawn), options.antialias);
+    timePasses(session, request, report);
+    std::optional<TruthComparison> comparison;
+    if (options.compareTruth) {
+        progress.start("exact answer");
+        comparison = compareWithTruth(session, options.view);
+        report.error = comparison->report;
+    }
+    progress.finish();
+    if (!options.output.empty())
+        writeImage(options.output, outputPicture(session, picture, drawn, comparison),
+                   provenance(session, report));
+    tell(options, report);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "common/app/flag.h"
+
+namespace penumbra {
+namespace {
+
+constexpr std::size_t helpColumns = 100;
+constexpr std::size_t helpIndent = 27;
+
+/// "  left        text text", continued under the text.
+void appendEntry(std::string& out, const std::string& left, const std::string& text) {
+    std::string line = fmt::format("{:<{}}", "  " + left, helpIndent);
+    if (left.size() + 3 > helpIndent) {
+        out += line + "\n";
+        line = std::string(helpIndent, ' ');
+    }
+    std::istringstream words(text);
+    std::size_t wordsInLine = 0;
+    for (std::string word; words >> word; ++wordsInLine) {
+        if (wordsInLine > 0 && line.size() + 1 + word.size() > helpColumns) {
+            out += line + "\n";
+            line = std::string(helpIndent, ' ');
+            wordsInLine = 0;
+        }
+        line += (wordsInLine > 0 ? " " : "") + word;
+    }
+    out += line + "\n";
+}
+
+void appendFlags(std::string& out, const std::vector<Flag>& flags) {
+    std::string group;
+    for (const Flag& flag : flags) {
+        if (flag.group != group) out += fmt::format("\n{}\n", flag.group);
+        group = flag.group;
+        appendEntry(out, "--" + flag.name + (flag.valueName.empty() ? "" : " " + flag.valueName), flag.help);
+    }
+}
+
+void appendViews(std::string& out, const ChapterInfo& info) {
+    out += "\nViews (--view NAME)\n";
+    for (const ViewInfo& view : info.views) appendEntry(out, view.name, view.help);
+    appendEntry(out, "truth", "the exact answer (with --compare-truth)");
+    appendEntry(out, "error", "how far the picture is from it, in false colour (with --compare-truth)");
+}
+
+void appendExamples(std::string& out, const std::string& name, const Parameters& parameters) {
+    out += "\nExamples\n";
+    out += fmt::format("  {} --scene contact --output out/contact.png\n", name);
+    out += fmt::format("  {} --compare-truth --view error --output out/error.png\n", name);
+    out += fmt::format("  {} --runs 20 --compare-truth --report out/report.json\n", name);
+    const auto& all = parameters.all();
+    const auto numeric =
+        std::find_if(all.begin(), all.end(), [](const Parameter& p) { return p.defaultValue.index() < 2; });
+    if (numeric != all.end())
+        out += fmt::format("  {} --{} {}\n", name, numeric->name, shortNumber(numeric->high));
+}
+
+}  // namespace
+
+std::string helpText(const ChapterInfo& info, const std::vector<Flag>& flags, const Parameters& parameters) {
+    std::string out = fmt::format("{}: {}\n\n", info.name, info.idea);
+    out += fmt::format("Usage: {} [FLAGS]\n", info.name);
+    out += "Opens a window to play in. Without a display, or with --headless, renders one picture\n";
+    out += fmt::format("(into out/{}.png unless --output or --report says otherwise).\n", info.name);
+    appendExamples(out, info.name, parameters);
+    appendFlags(out, flags);
+    appendViews(out, info);
+    out += "\nExit status: 0 fine, 1 the work failed, 2 the command line is wrong.\n";
+    return out;
+}
+
+}  // namespace penumbra
