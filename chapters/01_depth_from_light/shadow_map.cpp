@@ -1,5 +1,7 @@
 #include "chapters/01_depth_from_light/shadow_map.h"
 
+#include "common/app/pass_timer.h"
+
 namespace penumbra {
 
 // [begin:depth-texture]
@@ -66,7 +68,8 @@ class DepthState {
 void ShadowMap::render(Program& program, const Frame& frame, const Light& light, const LightFrustum& frustum,
                        const CasterDraw& draw) {
     const Key wanted{frame.gpu, program.id(), light.part, frustum, draw};
-    if (frame.skip && held_ == wanted) return;
+    if (frame.skip && !frame.renderMapsAgain && held_ == wanted) return;
+    const PassScope scope(frame.passTimer, "depth");
 
     const glm::dmat4 lightClipFromWorld = frustum.clipFromWorld();
     const VisibleClusters visible =
@@ -76,7 +79,7 @@ void ShadowMap::render(Program& program, const Frame& frame, const Light& light,
     program.set("uLightClipFromWorld", glm::mat4(lightClipFromWorld));
     program.prepareToDraw();
     const DrawCounts drawn =
-        frame.gpu->drawDepth({&visible, draw.cullClosed, draw.frontFacesInstead, light.part});
+        frame.gpu->drawDepth({&visible, draw.cullClosed && frame.skip, draw.frontFacesInstead, light.part});
     held_ = wanted;
 
     frame.work["shadow_maps_rendered"] += 1;

@@ -13,9 +13,9 @@ uniform vec3 uAmbientRadiance;
 out vec4 outColor;
 
 void main() {
-    vec3 diffuse = diffuseReflectance(vUv);
+    vec3 diffuse = materialDiffuse(vUv);
     vec3 n = facingNormal(nWorld);
     vec3 toLight = directionToLight(pWorld);
     vec3 reflected = blinnPhong(n, toLight, normalize(uEye - pWorld), diffuse, uSpecular, uShininess);
-    outColor = vec4(emittedRadiance() + uAmbientRadiance * diffuse + facingIrradiance(pWorld) * reflected, 1.0);
+    outColor = vec4(materialEmission() + uAmbientRadiance * diffuse + facingIrradiance(pWorld) * reflected, 1.0);
 }

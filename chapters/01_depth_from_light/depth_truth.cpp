@@ -1,0 +1,72 @@
+#include "chapters/01_depth_from_light/depth_truth.h"
+
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+/// Window depth of the first surface seen through `uv`, the far plane's where there is none before it.
+double castDepth(const RayTracer& tracer, const LightFrustum& frustum, const glm::dvec2& uv, int lightPart,
+                 bool& surface) {
+    const Hit hit = tracer.nearest(frustum.ray(uv), lightPart);
+    const double eyeDepth = hit.valid ? frustum.axisDistance(hit.position) : frustum.far;
+    surface = hit.valid && eyeDepth < frustum.far;
+    return frustum.windowDepth(surface ? eyeDepth : frustum.far);
+}
+
+}  // namespace
+
+glm::ivec2 texelShownAt(const glm::ivec2& pixel, const glm::ivec2& pictureSize, int mapSize) {
+    const double side = std::min(pictureSize.x, pictureSize.y);
+    const glm::dvec2 fromBottom(pixel.x + 0.5, pictureSize.y - pixel.y - 0.5);
+    const glm::dvec2 uv = (fromBottom - 0.5 * glm::dvec2(pictureSize)) / side + 0.5;
+    const glm::ivec2 texel(glm::floor(uv * double(mapSize)));
+    const bool inside = texel.x >= 0 && texel.y >= 0 && texel.x < mapSize && texel.y < mapSize;
+    return inside ? texel : glm::ivec2(-1);
+}
+
+TexelDepth exactTexelDepth(const RayTracer& tracer, const LightFrustum& frustum, const glm::ivec2& texel,
+                           int mapSize, DepthFormat format, int lightPart) {
+    // Rasterisers snap vertices to 1/256 of a texel: that near to an edge, both of its sides are right.
+    const glm::dvec2 snap(1.0 / 256.0);
+    bool surface[3];
+    double depth[3];
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec2 uv = (glm::dvec2(texel) + 0.5 + double(i - 1) * snap) / double(mapSize);
+        depth[i] = castDepth(tracer, frustum, uv, lightPart, surface[i]);
+    }
+    // On one plane the depths of three points in a row are in a row.
+    const double bend = std::abs(0.5 * (depth[0] + depth[2]) - depth[1]);
+    const bool defined =
+        bend <= 2.0 * depthQuantum(format, depth[1]) && surface[0] == surface[1] && surface[1] == surface[2];
+    return {depth[1], defined, surface[1]};
+}
+
+TruthImage depthTruth(const RayTracer& tracer, const LightFrustum& frustum, const glm::ivec2& pictureSize,
+                      int mapSize, DepthFormat format, int lightPart, bool linear,
+                      const ProgressCallback& progress) {
+    TruthImage truth;
+    truth.value = FloatImage(pictureSize.x, pictureSize.y, 1);
+    truth.mask = FloatImage(pictureSize.x, pictureSize.y, 1);
+    truth.quantity = linear ? "distance along the light's axis" : "window depth";
+    truth.method = "ray traced";
+    truth.against = "texel centres";
+    for (int y = 0; y < pictureSize.y; ++y) {
+        for (int x = 0; x < pictureSize.x; ++x) {
+            const glm::ivec2 texel = texelShownAt({x, y}, pictureSize, mapSize);
+            if (texel.x < 0) {
+                ++truth.background;
+                continue;
+            }
+            const TexelDepth exact = exactTexelDepth(tracer, frustum, texel, mapSize, format, lightPart);
+            truth.value.at(x, y) = float(linear ? frustum.eyeDepth(exact.value) : exact.value);
+            truth.mask.at(x, y) = exact.defined ? 1.0f : 0.0f;
+            if (!exact.defined) ++truth.straddling;
+        }
+        if (progress) progress((y + 1.0) / pictureSize.y);
+    }
+    return truth;
+}
+
+}  // namespace penumbra

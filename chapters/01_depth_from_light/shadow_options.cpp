@@ -1,0 +1,45 @@
+#include "chapters/01_depth_from_light/shadow_options.h"
+
+#include <fmt/format.h>
+
+#include "common/error.h"
+#include "common/scene/gpu_light.h"
+
+namespace penumbra {
+
+void ShadowOptions::declare(Parameters& parameters) {
+    parameters.add("light", light, 0, 63, "", "index of the light, when the scene has several");
+    parameters.add("map-size", mapSize, 16, 8192, "texels",
+                   "side of the shadow map; 64: staircases, 4096: fine, slow and mostly wasted");
+    parameters.add("depth-format", depthFormat, depthFormatNames(),
+                   "bits of a depth; 16: far surfaces fall into steps; 32f-reversed needs glClipControl");
+}
+
+const Light& ShadowOptions::chosenLight(const Scene& scene) const {
+    if (std::size_t(light) >= scene.lights.size())
+        throw UsageError(fmt::format("--light {}: scene {} has lights 0 to {}", light, scene.name,
+                                     scene.lights.size() - 1));
+    return scene.lights[std::size_t(light)];
+}
+
+ShadowMap& ShadowOptions::provide(std::optional<ShadowMap>& map, const Capabilities& capabilities) const {
+    const DepthFormat format = penumbra::depthFormat(depthFormat, capabilities);
+    if (!map || map->size() != mapSize || map->format() != format) map.emplace(mapSize, format);
+    return *map;
+}
+
+void setCameraAndLight(Program& program, const Frame& frame, const ShadowOptions& options) {
+    const double aspect = double(frame.size.x) / frame.size.y;
+    program.set("uClipFromWorld", glm::mat4(clipFromWorld(frame.camera, aspect)));
+    program.set("uEye", glm::vec3(frame.camera.position));
+    program.set("uAmbientRadiance", ambientRadiance(frame.scene, options.light, ambientShare));
+    setLight(program, options.chosenLight(frame.scene));
+}
+
+VisibleClusters seenByCamera(const Frame& frame) {
+    if (!frame.skip) return allClusters(frame.scene);
+    return visibleClusters(frame.scene,
+                           Frustum(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y)));
+}
+
+}  // namespace penumbra

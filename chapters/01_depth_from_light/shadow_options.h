@@ -1,0 +1,35 @@
+// The parameters that every chapter with a shadow map shares, and what they make.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "chapters/01_depth_from_light/shadow_map.h"
+#include "common/app/parameters.h"
+
+namespace penumbra {
+
+struct ShadowOptions {
+    int light = 0;
+    int mapSize = 1024;
+    std::string depthFormat = "24";
+
+    /// Declares --light, --map-size and --depth-format.
+    void declare(Parameters& parameters);
+    /// The chosen light. Throws UsageError when the scene has fewer.
+    const Light& chosenLight(const Scene& scene) const;
+    /// `map` as it is if it has the wanted size and format, else a new one in its place.
+    ShadowMap& provide(std::optional<ShadowMap>& map, const Capabilities& capabilities) const;
+};
+
+/// Sets the uniforms of lit.vert and lit.frag that don't belong to a material: camera, light, ambient term.
+void setCameraAndLight(Program& program, const Frame& frame, const ShadowOptions& options);
+
+/// What the camera of the frame sees, or everything without `frame.skip`.
+VisibleClusters seenByCamera(const Frame& frame);
+
+/// Ambient radiance as a share of what key light gives a facing surface: dark enough for shadows to read,
+/// bright enough to see into them.
+inline constexpr double ambientShare = 0.08;
+
+}  // namespace penumbra

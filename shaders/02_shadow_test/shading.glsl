@@ -1,0 +1,35 @@
+// Blinn-Phong with S(x), and the pictures of S itself. `S` is what the chapter is about; the rest is here.
+#include "common/blinn_phong.glsl"
+#include "common/light.glsl"
+#include "common/material.glsl"
+
+uniform vec3 uEye;
+uniform vec3 uAmbientRadiance;
+uniform int uView;  // 0 color, 1 visibility, 2 shadow-kind
+
+// [begin:blinn-phong]
+// In shadow only the ambient term is left.
+vec3 shadedRadiance(vec3 pWorld, vec3 nWorld, vec2 uv, float S) {
+    vec3 diffuse = materialDiffuse(uv);
+    vec3 reflected = blinnPhong(facingNormal(nWorld), directionToLight(pWorld), normalize(uEye - pWorld), diffuse,
+                                uSpecular, uShininess);
+    return materialEmission() + uAmbientRadiance * diffuse + S * facingIrradiance(pWorld) * reflected;
+}
+// [end:blinn-phong]
+
+// [begin:shadow-kind]
+// Attached: the surface faces away and needs no map to know it. Cast: it faces the light, and something is in between.
+vec3 shadowKind(float facing, float S) {
+    const vec3 litColour = vec3(0.9), attachedColour = vec3(0.1, 0.2, 0.5), castColour = vec3(0.7, 0.15, 0.05);
+    if (facing <= 0.0) return attachedColour;
+    return mix(castColour, litColour, S);
+}
+// [end:shadow-kind]
+
+vec4 viewOf(vec3 pWorld, vec3 nWorld, vec2 uv, float S) {
+    vec3 radiance = shadedRadiance(pWorld, nWorld, uv, S);
+    float facing = dot(facingNormal(nWorld), directionToLight(pWorld));
+    if (uView == 1) return vec4(vec3(facing > 0.0 ? S : 0.0), 1.0);
+    if (uView == 2) return vec4(shadowKind(facing, S), 1.0);
+    return vec4(radiance, 1.0);
+}
