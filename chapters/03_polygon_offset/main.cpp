@@ -1,0 +1,120 @@
+// Chapter 03: bias against acne, leaks against bias.
+//
+// The map's depth was taken at the centre of a texel, the point is somewhere in it: on a slope the two
+// differ, and the surface shadows itself. A bias hides the difference, and too much of it lets light leak
+// under walls. How much is needed can be derived from the slope, the format and the arithmetic; `--method`
+// compares that bound with the remedies in use.
+#include "chapters/01_depth_from_light/depth_view.h"
+#include "chapters/02_shadow_test/shadow_test.h"
+#include "chapters/03_polygon_offset/depth_bias.h"
+#include "common/app/pass_timer.h"
+#include "common/error.h"
+
+using namespace penumbra;
+
+namespace {
+
+class PolygonOffset : public Chapter {
+ public:
+    void declare(Parameters& parameters) override {
+        options_.declare(parameters);
+        declareOutside(parameters, outside_);
+        parameters.add("method", method_, biasMethodNames(), "remedy for acne; slope is the derived bound");
+        parameters.add("bias", bias_, 0.0f, 32.0f, "",
+                       "multiple of what the method asks for; 0: stripes of acne, 8: shadows detach");
+    }
+
+    void load(const Scene&, const Context*) override {
+        depth_.emplace("01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag");
+        peel_.emplace("01_depth_from_light/depth.vert", "03_polygon_offset/peel.frag");
+        biased_.emplace("02_shadow_test/shadowed.vert", "03_polygon_offset/biased.frag");
+        depthView_.emplace();
+        map_.reset();
+        secondLayer_.reset();
+    }
+
+    void render(const Frame& frame) override {
+        // [begin:passes]
+        // Pass 1: the scene from the light (chapter 01), drawn as the method wants it.
+        const BiasMethod method = biasMethod(method_);
+        ShadowMap& map = options_.provide(map_, frame.context->capabilities());
+        const Light& light = options_.chosenLight(frame.scene);
+        const LightFrustum frustum = fitLightFrustum(
+            frame.scene, light, frame.camera, double(frame.size.x) / frame.size.y, depthRange(map.format()));
+        const DepthErrors errors = depthErrors(map, frustum, frame.scene.bounds);
+        const CasterDraw draw = casterDraw(method, map, frustum, errors, bias_);
+        map.render(*depth_, frame, light, frustum, draw);
+
+        // Pass 1b, midpoint only: what lies behind the nearest surface.
+        const ShadowMap& second =
+            method == BiasMethod::midpoint ? peel(frame, map, light, frustum, errors, draw) : map;
+
+        // Pass 2: the picture, compared with a bias.
+        const PassScope scope(frame.passTimer, "shading");
+        glClearColor(0, 0, 0, 1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
+        glEnable(GL_DEPTH_TEST);
+        setCameraAndLight(*biased_, frame, options_);
+        setShadowMap(*biased_, map, frustum, light, outside_);
+        setBias(method, errors, second);
+        biased_->set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
+        frame.gpu->drawShaded(*biased_, seenByCamera(frame));
+        // [end:passes]
+    }
+
+    TruthImage truth(const TruthRequest& request) override {
+        if (request.view != "visibility")
+            throw UsageError("--compare-truth: chapter 03 has an exact answer for --view visibility");
+        return visibilityTruth(request.scene, request.tracer, request.camera,
+                               options_.chosenLight(request.scene), request.size, true, request.progress);
+    }
+
+    std::vector<Program*> programs() override {
+        return {&*depth_, &*peel_, &*biased_, &depthView_->program()};
+    }
+
+ private:
+    // [begin:peel]
+    const ShadowMap& peel(const Frame& frame, const ShadowMap& first, const Light& light,
+                          const LightFrustum& frustum, const DepthErrors& errors, const CasterDraw& draw) {
+        ShadowMap& second = options_.provide(secondLayer_, frame.context->capabilities());
+        peel_->setTexture("uFirstLayer", GL_TEXTURE_2D, first.texture());
+        peel_->set("uFarther", frustum.range == DepthRange::reversed ? -1.0f : 1.0f);
+        peel_->set("uQuantum", errors.quantum);
+        second.render(*peel_, frame, light, frustum, draw);
+        return second;
+    }
+    // [end:peel]
+
+    void setBias(BiasMethod method, const DepthErrors& errors, const ShadowMap& second) {
+        biased_->setTexture("uSecondLayer", GL_TEXTURE_2D, second.texture());
+        biased_->set("uMethod", int(method));
+        biased_->set("uBias", bias_);
+        biased_->set("uConstantBias", errors.constant);
+        biased_->set("uQuantum", errors.quantum);
+        biased_->set("uSnap", errors.snap);
+        biased_->set("uRounding", errors.rounding);
+        biased_->set("uRasterError", errors.rasterError);
+    }
+
+    ShadowOptions options_;
+    std::string outside_ = "lit", method_ = "slope";
+    float bias_ = 1.0f;
+    std::optional<Program> depth_, peel_, biased_;
+    std::optional<DepthView> depthView_;
+    std::optional<ShadowMap> map_, secondLayer_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const ChapterInfo info{
+        "03_polygon_offset",
+        "bias against acne, leaks against bias: a bound derived, not tuned",
+        {{"color", "Blinn-Phong with S(x)"},
+         {"visibility", "S(x): 1 where the light sees the point", true, false},
+         {"shadow-kind", "lit white, attached shadow blue, cast shadow red", false, false, 0.0},
+         {"depth", "the shadow map", true, false}}};
+    return runChapter<PolygonOffset>(info, argc, argv);
+}
