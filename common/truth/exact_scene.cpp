@@ -13,6 +13,7 @@ namespace penumbra {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr std::size_t noLimit = std::numeric_limits<std::size_t>::max();
 
 double sumOfMagnitudes(const glm::dvec3& v) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
@@ -64,9 +65,9 @@ bool crosses(const ShadowSegment& segment, const Triangle& triangle) {
 }
 
 /// The triangles that reach into the pyramid, in scene order, so that the result does not depend on the
-/// hierarchy.
+/// hierarchy; one more than `atMost` if there are more.
 std::span<const Triangle> gather(const TriangleBvh& bvh, const LightPyramid& pyramid, int ignorePart,
-                                 std::uint32_t excludedTriangle) {
+                                 std::uint32_t excludedTriangle, std::size_t atMost) {
     thread_local std::vector<const TriangleBvh::Entry*> found;
     thread_local std::vector<Triangle> occluders;
     found.clear();
@@ -75,7 +76,7 @@ std::span<const Triangle> gather(const TriangleBvh& bvh, const LightPyramid& pyr
                  [&](const TriangleBvh::Entry& entry) {
                      if (entry.part != ignorePart && entry.triangle != excludedTriangle)
                          found.push_back(&entry);
-                     return false;
+                     return found.size() > atMost;
                  });
     std::sort(found.begin(), found.end(),
               [](const auto* a, const auto* b) { return a->triangle < b->triangle; });
@@ -101,8 +102,22 @@ double ExactScene::visibleFormFactor(const glm::dvec3& x, const glm::dvec3& n,
                                      std::span<const glm::dvec3> polygon, int ignorePart,
                                      std::uint32_t excludedTriangle) const {
     return sumOverPyramids(x, n, polygon, [&](const LightPyramid& pyramid) {
-        return penumbra::visibleFormFactor(pyramid, gather(bvh_, pyramid, ignorePart, excludedTriangle));
+        return penumbra::visibleFormFactor(pyramid,
+                                           gather(bvh_, pyramid, ignorePart, excludedTriangle, noLimit));
     });
+}
+
+std::optional<double> ExactScene::visibleFormFactorOfFew(const glm::dvec3& x, const glm::dvec3& n,
+                                                         std::span<const glm::dvec3> polygon,
+                                                         std::size_t atMost, int ignorePart,
+                                                         std::uint32_t excludedTriangle) const {
+    bool tooMany = false;
+    const double sum = sumOverPyramids(x, n, polygon, [&](const LightPyramid& pyramid) {
+        const auto occluders = gather(bvh_, pyramid, ignorePart, excludedTriangle, atMost);
+        tooMany = tooMany || occluders.size() > atMost;
+        return tooMany ? 0.0 : penumbra::visibleFormFactor(pyramid, occluders);
+    });
+    return tooMany ? std::nullopt : std::optional(sum);
 }
 
 std::vector<double> ExactScene::formFactorImage(const PlanarReceiver& receiver, const glm::ivec2& size,

@@ -1,8 +1,10 @@
 // Exact shadows in a whole scene: closed forms over the scene's own triangles, without Embree.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +36,12 @@ class ExactScene {
     /// cut the light: fine for walls and stairs, long behind a tree.
     double visibleFormFactor(const glm::dvec3& x, const glm::dvec3& n, std::span<const glm::dvec3> polygon,
                              int ignorePart = noPart, std::uint32_t excludedTriangle = noTriangle) const;
+
+    /// The same, or nothing if more than `atMost` triangles reach into one pyramid: found out in little time.
+    std::optional<double> visibleFormFactorOfFew(const glm::dvec3& x, const glm::dvec3& n,
+                                                 std::span<const glm::dvec3> polygon, std::size_t atMost,
+                                                 int ignorePart = noPart,
+                                                 std::uint32_t excludedTriangle = noTriangle) const;
 
     /// visibleFormFactor at the cell centres of a grid on a rectangle, row 0 at v = 0, on all cores; size.x *
     /// size.y values. Triangles in the receiver's plane do not shadow it. Irradiance is pi times the light's

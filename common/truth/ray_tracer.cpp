@@ -13,6 +13,7 @@
 #include <mutex>
 
 #include "common/error.h"
+#include "common/truth/exact_scene.h"
 #include "common/truth/segment_test.h"
 
 namespace penumbra {
@@ -31,10 +32,11 @@ constexpr int packetSize = 16;
 /// address.
 struct Query {
     EmbreeContext embree;
-    const RayTracer* tracer = nullptr;
     std::uint32_t ignoreBegin = 0;  ///< triangles [ignoreBegin, ignoreEnd) are not there
     std::uint32_t ignoreEnd = 0;
     const ShadowRay* rays = nullptr;  ///< indexed by the id of an Embree ray
+    std::array<bool, packetSize>
+        passedAnEdge{};  ///< float and double disagreed about a candidate, by the same id
     const glm::vec3* vertices = nullptr;
     const std::uint32_t* indices = nullptr;
 
@@ -53,17 +55,23 @@ void ignorePartFilter(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
-/// Embree's float arithmetic found a candidate; the double test decides.
+/// Embree's float arithmetic found a candidate; the double test decides. Where it says that the ray passes
+/// the candidate by a hair, its neighbour may be the one that is hit, and float may have missed that: such a
+/// ray is noted.
 void exactShadowFilter(const RTCFilterFunctionNArguments* arguments) {
-    const auto* query = reinterpret_cast<const Query*>(arguments->context);
+    auto* query = reinterpret_cast<Query*>(arguments->context);
     for (unsigned i = 0; i < arguments->N; ++i) {
         if (arguments->valid[i] != -1) continue;
         const std::uint32_t candidate = RTCHitN_primID(arguments->hit, arguments->N, i);
-        const ShadowRay& ray = query->rays[RTCRayN_id(arguments->ray, arguments->N, i)];
-        const bool blocks = candidate != ray.triangle && !query->ignores(candidate) &&
-                            crossTriangle({ray.origin, ray.target, ray.towardsInfinity},
-                                          query->triangle(candidate)) == Crossing::inside;
-        if (!blocks) arguments->valid[i] = 0;
+        const unsigned id = RTCRayN_id(arguments->ray, arguments->N, i);
+        const ShadowRay& ray = query->rays[id];
+        Crossing crossing = Crossing::none;
+        if (candidate != ray.triangle && !query->ignores(candidate)) {
+            crossing =
+                crossTriangle({ray.origin, ray.target, ray.towardsInfinity}, query->triangle(candidate));
+        }
+        if (crossing == Crossing::missed) query->passedAnEdge[id] = true;
+        if (crossing != Crossing::inside) arguments->valid[i] = 0;
     }
 }
 
@@ -94,21 +102,34 @@ struct RayTracer::State {
     }
 
     const Scene& scene;
-    std::once_flag once;
+    std::once_flag embreeOnce, exactOnce;
     RTCDevice device = nullptr;
     RTCScene embree = nullptr;
+    std::unique_ptr<ExactScene> exact;
     double reach = 0.0;  ///< largest coordinate of the scene, metres
 
     void build();
     RTCScene built() {
-        std::call_once(once, [this] { build(); });
+        std::call_once(embreeOnce, [this] { build(); });
         return embree;
     }
     Query query(int ignorePart) const;
     std::uint32_t partOf(std::uint32_t triangle) const;
     Hit hitAt(std::uint32_t triangle, const glm::dvec2& barycentric) const;
-    void traceSixteen(const ShadowRay* rays, int count, std::uint8_t* blocked, Query& query) const;
+    bool occludedExactly(const ShadowRay& ray, int ignorePart);
+    void traceSixteen(std::span<const ShadowRay> rays, std::uint8_t* blocked, Query& query) const;
 };
+
+/// The slow answer, wholly in double: for the one ray in about a million that float cannot settle.
+bool RayTracer::State::occludedExactly(const ShadowRay& ray, int ignorePart) {
+    std::call_once(exactOnce, [this] { exact = std::make_unique<ExactScene>(scene); });
+    glm::dvec3 target = ray.target;
+    if (ray.towardsInfinity) {
+        const double beyond = 4.0 * (reach + largestCoordinate(ray.origin)) + 1.0;
+        target = ray.origin + beyond * glm::normalize(ray.target);
+    }
+    return exact->occluded(ray.origin, ray.triangle, target, ignorePart);
+}
 
 void RayTracer::State::build() {
     device = rtcNewDevice(nullptr);
@@ -217,29 +238,35 @@ Hit RayTracer::nearest(const Ray& ray, int ignorePart) const {
     return state_->hitAt(triangle, exactBarycentrics(ray, query.triangle(triangle), fallback));
 }
 
-void RayTracer::State::traceSixteen(const ShadowRay* rays, int count, std::uint8_t* blocked,
+/// The float ray that Embree gets, in lane `i`. It starts behind its origin and ends behind its target by 64
+/// ulps of the largest coordinate in play: rounding origin and direction moves it by 2 of them, and Embree's
+/// own arithmetic in robust mode by fewer than 8, so whatever the exact ray touches near its ends becomes a
+/// candidate.
+static bool packRay(const ShadowRay& ray, double reach, int i, RTCRay16& packet) {
+    const glm::dvec3 direction = ray.towardsInfinity ? ray.target : ray.target - ray.origin;
+    const double length = glm::length(direction);
+    const double back = 0x1p-18 * std::max(reach, largestCoordinate(ray.origin));
+    const glm::dvec3 unit = direction * (1.0 / length);
+    const glm::vec3 o(ray.origin - back * unit), d(unit);
+    packet.org_x[i] = o.x, packet.org_y[i] = o.y, packet.org_z[i] = o.z;
+    packet.dir_x[i] = d.x, packet.dir_y[i] = d.y, packet.dir_z[i] = d.z;
+    packet.tnear[i] = 0.0f;
+    packet.time[i] = 0.0f;
+    packet.mask[i] = 0xffffffffu;
+    packet.id[i] = unsigned(i);
+    packet.flags[i] = 0;
+    packet.tfar[i] =
+        ray.towardsInfinity ? std::numeric_limits<float>::infinity() : float(length + 3.0 * back);
+    return length > 0.0;
+}
+
+void RayTracer::State::traceSixteen(std::span<const ShadowRay> rays, std::uint8_t* blocked,
                                     Query& query) const {
     alignas(64) int valid[packetSize] = {};
     alignas(64) RTCRay16 packet;
-    for (int i = 0; i < packetSize; ++i) {
-        const ShadowRay& ray = rays[std::min(i, count - 1)];
-        const glm::dvec3 direction = ray.towardsInfinity ? ray.target : ray.target - ray.origin;
-        const double length = glm::length(direction);
-        const double back = 0x1p-18 * std::max(reach, largestCoordinate(ray.origin));
-        const glm::dvec3 unit = direction / length;
-        const glm::vec3 o(ray.origin - back * unit), d(unit);
-        valid[i] = i < count && length > 0.0 ? -1 : 0;
-        packet.org_x[i] = o.x, packet.org_y[i] = o.y, packet.org_z[i] = o.z;
-        packet.dir_x[i] = d.x, packet.dir_y[i] = d.y, packet.dir_z[i] = d.z;
-        packet.tnear[i] = 0.0f;
-        packet.time[i] = 0.0f;
-        packet.mask[i] = 0xffffffffu;
-        packet.id[i] = unsigned(i);
-        packet.flags[i] = 0;
-        packet.tfar[i] = ray.towardsInfinity ? std::numeric_limits<float>::infinity()
-                                             : float((length + 2.0 * back) * (1.0 + 0x1p-20));
-    }
-    query.rays = rays;
+    for (std::size_t i = 0; i < rays.size(); ++i) valid[i] = packRay(rays[i], reach, int(i), packet) ? -1 : 0;
+    query.rays = rays.data();
+    query.passedAnEdge.fill(false);
 #if RTC_VERSION_MAJOR >= 4
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
@@ -250,7 +277,8 @@ void RayTracer::State::traceSixteen(const ShadowRay* rays, int count, std::uint8
     query.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcOccluded16(valid, embree, &query.embree, &packet);
 #endif
-    for (int i = 0; i < count; ++i) blocked[i] = valid[i] == -1 && packet.tfar[i] < 0.0f ? 1 : 0;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        blocked[i] = valid[i] == -1 && packet.tfar[i] < 0.0f ? 1 : 0;
 }
 
 void RayTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked,
@@ -258,8 +286,12 @@ void RayTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t
     state_->built();
     Query query = state_->query(ignorePart);
     for (std::size_t first = 0; first < rays.size(); first += packetSize) {
-        const int count = int(std::min<std::size_t>(packetSize, rays.size() - first));
-        state_->traceSixteen(&rays[first], count, &blocked[first], query);
+        const auto packet = rays.subspan(first, std::min<std::size_t>(packetSize, rays.size() - first));
+        state_->traceSixteen(packet, &blocked[first], query);
+        for (std::size_t i = 0; i < packet.size(); ++i) {
+            if (query.passedAnEdge[i] && !blocked[first + i])
+                blocked[first + i] = state_->occludedExactly(packet[i], ignorePart) ? 1 : 0;
+        }
     }
 }
 
