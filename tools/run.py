@@ -1,0 +1,58 @@
+"""./run: builds the course and renders it.
+
+    ./run                        render every chapter of the scene `courtyard` into out/, with a page to compare them:
+                                 out/index.html
+    ./run 03                     chapter 03 in a window; without a display, its picture in out/
+    ./run 03 FLAGS               the same with the chapter's own flags; ./run 03 --help lists them
+    ./run 03 --headless --scene contact --output a.png
+    ./run --scene FILE --size WxH   every chapter of another scene (a name in assets/, or any .gltf or .glb file)
+    ./run --build                only install, configure and build; the programs are build/release/bin/NN_name
+    ./run --help
+
+The first run installs what is missing (as root, or with sudo) and builds, which takes some minutes; after that, only
+what changed. Change a number in chapters/ or shaders/ and type the same command again.
+"""
+import argparse
+import os
+import sys
+
+import build
+import gallery
+import house
+
+
+def runChapter(name, flags):
+    build.build("release", [name])
+    program = build.folder("release") / "bin" / name
+    os.execv(program, [str(program), *flags])
+
+
+def main(words):
+    if words and words[0] in ("-h", "--help"):
+        print(__doc__.strip())
+        return 0
+    chapters = house.chapterNames(build.ROOT)
+    if words and not words[0].startswith("-"):
+        name = house.findChapter(build.ROOT, words[0])
+        if not name:
+            print(f"there is no chapter {words[0]}; there are {', '.join(chapters)}", file=sys.stderr)
+            return 2
+        build.install("run")
+        return runChapter(name, words[1:])
+    parser = argparse.ArgumentParser(prog="./run", add_help=False, allow_abbrev=False)
+    parser.add_argument("--build", action="store_true")
+    parser.add_argument("--scene", default="courtyard")
+    parser.add_argument("--size", default="512x512")
+    options = parser.parse_args(words)
+    build.install("run")
+    build.build("release", [*chapters, "make_assets"])
+    return 0 if options.build else gallery.render(chapters, options.scene, options.size)
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except build.BuildError as problem:
+        sys.exit(str(problem))
+    except KeyboardInterrupt:
+        sys.exit(130)
