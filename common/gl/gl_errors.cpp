@@ -15,8 +15,9 @@ namespace {
 // driver's frames. A fixed buffer, because allocating may throw too.
 char pendingMessage[512] = "";
 
-void APIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
+void APIENTRY onDebugMessage(GLenum source, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                              const void*) {
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;  // Program reports these, with the file and line
     if (type != GL_DEBUG_TYPE_ERROR || pendingMessage[0] != '\0') return;  // the first error is the cause
     std::strncpy(pendingMessage, message, sizeof(pendingMessage) - 1);
 }
