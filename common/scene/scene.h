@@ -25,9 +25,8 @@ struct Texture {
 /// Blinn-Phong material, derived from glTF's metallic-roughness model.
 ///
 /// Which way a surface faces, on the CPU and in GLSL alike: no face is culled from the picture, and every face casts a
-/// shadow from both sides. Where the camera sees the BACK of a face (geometric normal, by winding, away from the eye) and
-/// the material is double-sided, shading and geometric normal are both flipped, so it is lit on the side one looks at. On
-/// a single-sided material they stay as they are: its back shows the light that falls on its front.
+/// shadow from both sides. Where the camera sees the back of a face (geometric normal, by winding, away from the eye),
+/// shading and geometric normal are both flipped, so it is lit on the side one looks at. Emission comes from the front only.
 struct Material {
     std::string name;
     glm::vec3 diffuse{0.8f};       ///< linear diffuse reflectance, 0..1 (times the texture, if any)
