@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/app/spelling.h"
+#include "common/text/spelling.h"
 #include "common/error.h"
 #include "common/gl/gl.h"
 #include "common/image/tone_map.h"

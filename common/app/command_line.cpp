@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "common/app/flag.h"
-#include "common/app/spelling.h"
+#include "common/text/spelling.h"
 #include "common/error.h"
 
 namespace penumbra {

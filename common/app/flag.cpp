@@ -7,7 +7,7 @@
 #include <charconv>
 #include <limits>
 
-#include "common/app/spelling.h"
+#include "common/text/spelling.h"
 #include "common/error.h"
 
 namespace penumbra {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "common/app/spelling.h"
+#include "common/text/spelling.h"
 #include "common/error.h"
 
 namespace penumbra {

@@ -1,4 +1,4 @@
-#include "common/app/spelling.h"
+#include "common/text/spelling.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
