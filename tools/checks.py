@@ -1,0 +1,118 @@
+"""The steps of ./test. Each returns (passed, failed) and prints what is wrong and where."""
+import json
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as xml
+from concurrent.futures import ThreadPoolExecutor
+
+import build
+import regions
+import tidy
+
+ROOT = build.ROOT
+CORES = os.cpu_count() or 1
+LINES_OF_A_FAILURE = 60
+
+
+def run(words, **more):
+    return subprocess.run([str(word) for word in words], cwd=ROOT, capture_output=True, text=True, errors="replace", **more)
+
+
+def judge(name, ran):
+    """One process as one test."""
+    if ran.returncode == 0:
+        return 1, 0
+    print(f"{(ran.stdout + ran.stderr).strip()}\nFAILED {name} (status {ran.returncode})")
+    return 0, 1
+
+
+def ctest(preset, flags=(), targets=(), environment=None):
+    """Builds a preset and runs its tests."""
+    build.build(preset, targets)
+    results = build.folder(preset) / "tests.xml"
+    results.unlink(missing_ok=True)
+    ran = run(["ctest", "--test-dir", build.folder(preset), "-j", CORES, "--no-tests=error", "--output-junit", results, *flags],
+              env={**os.environ, **(environment or {})})
+    if not results.exists():
+        raise build.BuildError(f"{ran.stdout}{ran.stderr}ctest could not run in {build.folder(preset)}")
+    cases = xml.parse(results).getroot().findall("testcase")
+    failures = [case for case in cases if case.get("status") != "run"]
+    for case in failures:
+        said = (case.findtext("system-out") or "").strip().splitlines()
+        print("\n".join(said[-LINES_OF_A_FAILURE:]) + f"\nFAILED {case.get('name')}")
+    failed = len(failures) or int(ran.returncode != 0)
+    return len(cases) - len(failures), failed
+
+
+def pages(flags):
+    return judge("docs/refresh " + " ".join(flags), run([ROOT / "docs" / "refresh", *flags]))
+
+
+def cppFiles(*suffixes):
+    return [path for path in regions.trackedFiles(ROOT, "common", "chapters", "assets", "tests")
+            if path.endswith(suffixes)]
+
+
+def formatting():
+    files = cppFiles(".cpp", ".h")
+    return judge("clang-format: run clang-format -i on these", run(["clang-format", "--dry-run", "-Werror", *files]))
+
+
+def lint():
+    """clang-tidy on our own sources; the checks are in .clang-tidy."""
+    build.configure("release")
+    linter = tidy.Linter(ROOT, build.folder("release"))
+    files = [path for path in cppFiles(".cpp") if linter.compiles(path)]
+    with ThreadPoolExecutor(CORES) as pool:
+        complaints = [said for said in pool.map(linter.complaint, files) if said]
+    print("\n".join(complaints), end="\n" if complaints else "")
+    return (1, 0) if not complaints else (0, 1)
+
+
+def sanitizers():
+    unit = [f"unit_{path.stem.removesuffix('_test')}" for path in sorted((ROOT / "tests" / "unit").glob("*_test.cpp"))]
+    environment = {
+        # Drivers and LLVM keep what they allocate until the process ends: leaks are looked for in our own code only.
+        "LSAN_OPTIONS": f"suppressions={ROOT}/tools/leaks.txt:print_suppressions=0",
+        "UBSAN_OPTIONS": "print_stacktrace=1",
+        "PENUMBRA_TEST_OUTPUT": str(build.folder("sanitize") / "images"),
+    }
+    return ctest("sanitize", ["-L", "unit"], unit, environment)
+
+
+def withoutOsmesa():
+    """The build and a picture on a machine without OSMesa's header and library."""
+    chapter = "02_shadow_test"
+    build.build("no-osmesa", [chapter])
+    program, report = build.folder("no-osmesa") / "bin" / chapter, build.folder("no-osmesa") / "report.json"
+    flags = ["--headless", "--scene", "contact", "--size", "64x64"]
+    passed, failed = judge("a picture without OSMesa", run([program, *flags, "--report", report]))
+    if passed and json.loads(report.read_text())["backend"] != "egl":
+        print("FAILED the build without OSMesa did not choose EGL")
+        passed, failed = 0, 1
+    refused = run([program, *flags, "--backend", "osmesa"])
+    if refused.returncode == 1 and len(refused.stderr.strip().splitlines()) == 1:
+        return passed + 1, failed
+    print(f"{refused.stderr}FAILED --backend osmesa without OSMesa: status {refused.returncode}, one line and 1 expected")
+    return passed, failed + 1
+
+
+def fuzz(seconds):
+    """Each libFuzzer target for `seconds`, from its seed corpus; what it finds stays in out/fuzz."""
+    sources = sorted((ROOT / "tests" / "fuzz").glob("*_fuzz.cpp"))
+    names = [path.stem.removesuffix("_fuzz") for path in sources]
+    build.build("fuzz", [f"fuzz_{name}" for name in names])
+    passed = failed = 0
+    for name in names:
+        found, seeds = ROOT / "out" / "fuzz" / name, ROOT / "tests" / "fuzz" / "corpus" / name
+        corpus = build.folder("fuzz") / "corpus" / name
+        for folder in (found, corpus):
+            folder.mkdir(parents=True, exist_ok=True)
+        good, bad = judge(f"fuzz_{name}: the input is in {found}", run(
+            [build.folder("fuzz") / "bin" / f"fuzz_{name}", f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=2048",
+             "-print_final_stats=1", "-verbosity=0", f"-artifact_prefix={found}/", corpus, seeds]))
+        passed, failed = passed + good, failed + bad
+    if not names:
+        print("there is no fuzz target in tests/fuzz", file=sys.stderr)
+    return passed, failed or int(not names)
