@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string_view>
 
 #include "common/scene/gltf_limits.h"
@@ -23,85 +25,44 @@ constexpr std::array prunedKeys = {std::string_view("extras"), std::string_view(
                                    std::string_view("skins"),  std::string_view("samplers"),
                                    std::string_view("min"),    std::string_view("max")};
 
-enum class Kind { integer, number, text, object, array };
-
-struct KeyRule {
-    std::string_view key;
-    Kind kind;
-};
+enum class Kind { index, number, text, object, array };
 
 /// glTF uses each of these keys with one type only. tinygltf takes an optional property of the wrong type as
 /// absent, and the picture would be wrong without a word.
-constexpr std::array keyRules = {KeyRule{"scene", Kind::integer},
-                                 KeyRule{"mesh", Kind::integer},
-                                 KeyRule{"camera", Kind::integer},
-                                 KeyRule{"skin", Kind::integer},
-                                 KeyRule{"material", Kind::integer},
-                                 KeyRule{"mode", Kind::integer},
-                                 KeyRule{"index", Kind::integer},
-                                 KeyRule{"texCoord", Kind::integer},
-                                 KeyRule{"bufferView", Kind::integer},
-                                 KeyRule{"byteOffset", Kind::integer},
-                                 KeyRule{"byteLength", Kind::integer},
-                                 KeyRule{"byteStride", Kind::integer},
-                                 KeyRule{"componentType", Kind::integer},
-                                 KeyRule{"count", Kind::integer},
-                                 KeyRule{"source", Kind::integer},
-                                 KeyRule{"buffer", Kind::integer},
-                                 KeyRule{"light", Kind::integer},
-                                 KeyRule{"intensity", Kind::number},
-                                 KeyRule{"range", Kind::number},
-                                 KeyRule{"innerConeAngle", Kind::number},
-                                 KeyRule{"outerConeAngle", Kind::number},
-                                 KeyRule{"yfov", Kind::number},
-                                 KeyRule{"znear", Kind::number},
-                                 KeyRule{"zfar", Kind::number},
-                                 KeyRule{"xmag", Kind::number},
-                                 KeyRule{"ymag", Kind::number},
-                                 KeyRule{"metallicFactor", Kind::number},
-                                 KeyRule{"roughnessFactor", Kind::number},
-                                 KeyRule{"emissiveStrength", Kind::number},
-                                 KeyRule{"name", Kind::text},
-                                 KeyRule{"uri", Kind::text},
-                                 KeyRule{"type", Kind::text},
-                                 KeyRule{"alphaMode", Kind::text},
-                                 KeyRule{"version", Kind::text},
-                                 KeyRule{"asset", Kind::object},
-                                 KeyRule{"pbrMetallicRoughness", Kind::object},
-                                 KeyRule{"baseColorTexture", Kind::object},
-                                 KeyRule{"emissiveTexture", Kind::object},
-                                 KeyRule{"attributes", Kind::object},
-                                 KeyRule{"sparse", Kind::object},
-                                 KeyRule{"extensions", Kind::object},
-                                 KeyRule{"KHR_lights_punctual", Kind::object},
-                                 KeyRule{"KHR_texture_transform", Kind::object},
-                                 KeyRule{"KHR_materials_emissive_strength", Kind::object},
-                                 KeyRule{"scenes", Kind::array},
-                                 KeyRule{"nodes", Kind::array},
-                                 KeyRule{"meshes", Kind::array},
-                                 KeyRule{"accessors", Kind::array},
-                                 KeyRule{"buffers", Kind::array},
-                                 KeyRule{"bufferViews", Kind::array},
-                                 KeyRule{"materials", Kind::array},
-                                 KeyRule{"textures", Kind::array},
-                                 KeyRule{"images", Kind::array},
-                                 KeyRule{"cameras", Kind::array},
-                                 KeyRule{"lights", Kind::array},
-                                 KeyRule{"children", Kind::array},
-                                 KeyRule{"primitives", Kind::array},
-                                 KeyRule{"matrix", Kind::array},
-                                 KeyRule{"rotation", Kind::array},
-                                 KeyRule{"translation", Kind::array},
-                                 KeyRule{"baseColorFactor", Kind::array},
-                                 KeyRule{"emissiveFactor", Kind::array},
-                                 KeyRule{"color", Kind::array},
-                                 KeyRule{"extensionsUsed", Kind::array},
-                                 KeyRule{"extensionsRequired", Kind::array}};
+const std::map<std::string, Kind>& keyKinds() {
+    static const std::map<std::string, Kind> kinds = [] {
+        const std::pair<Kind, const char*> rules[] = {
+            {Kind::index,
+             "scene mesh camera skin material mode index texCoord buffer bufferView byteOffset byteLength "
+             "byteStride "
+             "componentType count source light"},
+            {Kind::number,
+             "intensity range innerConeAngle outerConeAngle yfov znear zfar xmag ymag metallicFactor "
+             "roughnessFactor "
+             "emissiveStrength"},
+            {Kind::text, "name uri type alphaMode version"},
+            {Kind::object,
+             "asset pbrMetallicRoughness baseColorTexture emissiveTexture attributes sparse extensions "
+             "KHR_lights_punctual KHR_texture_transform KHR_materials_emissive_strength"},
+            {Kind::array,
+             "scenes nodes meshes accessors buffers bufferViews materials textures images cameras lights "
+             "children "
+             "primitives matrix translation baseColorFactor emissiveFactor color extensionsUsed "
+             "extensionsRequired"}};
+        std::map<std::string, Kind> map;
+        for (const auto& [kind, keys] : rules) {
+            std::istringstream words(keys);
+            for (std::string key; words >> key;) map.emplace(key, kind);
+        }
+        return map;
+    }();
+    return kinds;
+}
 
 bool isKind(const Json& value, Kind kind) {
     switch (kind) {
-        case Kind::integer:
-            return value.is_number_integer();
+        case Kind::index:
+            return value.is_number_unsigned();
         case Kind::number:
             return value.is_number();
         case Kind::text:
@@ -115,7 +76,8 @@ bool isKind(const Json& value, Kind kind) {
 }
 
 const char* kindName(Kind kind) {
-    constexpr std::array names = {"an integer", "a number", "a string", "an object", "an array"};
+    constexpr std::array names = {"a whole number, 0 or more", "a number", "a string", "an object",
+                                  "an array"};
     return names[std::size_t(kind)];
 }
 
@@ -139,11 +101,10 @@ void checkTypes(Json& value, const Document& document) {
     if (value.is_object()) dropUnsupportedExtensions(value);
     for (auto it = value.begin(); it != value.end(); ++it) {
         if (value.is_object()) {
-            const auto rule = std::find_if(keyRules.begin(), keyRules.end(),
-                                           [&](const KeyRule& r) { return r.key == it.key(); });
-            if (rule != keyRules.end() && !isKind(*it, rule->kind)) {
-                document.fail(fmt::format("\"{}\" is of type {}, and must be {}", it.key(), it->type_name(),
-                                          kindName(rule->kind)));
+            const auto rule = keyKinds().find(it.key());
+            if (rule != keyKinds().end() && !isKind(*it, rule->second)) {
+                document.fail(fmt::format("\"{}\" is {}, and must be {}", it.key(), printable(it->dump(), 40),
+                                          kindName(rule->second)));
             }
         }
         checkTypes(*it, document);
@@ -216,9 +177,10 @@ Json takeObjects(Json& root, const char* key, const Document& document) {
 PrunedJson pruneJson(Bytes json, Document& document) {
     Json root = parse(json, document);
     if (!root.is_object()) document.fail("not a glTF file: the JSON is not an object");
+    checkExtensions(root,
+                    document);  // first: a file that needs an extension may break the rules of plain glTF
     checkTypes(root, document);
     checkSizes(root, document);
-    checkExtensions(root, document);
     PrunedJson pruned;
     for (const Json& buffer : takeObjects(root, "buffers", document)) {
         if (!buffer.contains("byteLength") || !buffer["byteLength"].is_number_unsigned()) {

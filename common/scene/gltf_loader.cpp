@@ -17,6 +17,7 @@
 #include "common/scene/gltf_materials.h"
 #include "common/scene/gltf_mesh.h"
 #include "common/scene/gltf_nodes.h"
+#include "common/scene/gltf_placement.h"
 #include "common/scene/gltf_views.h"
 #include "common/scene/scene_defaults.h"
 
@@ -31,8 +32,9 @@ struct Instance {
     LocalMesh mesh;
 };
 
-glm::dvec3 transformPoint(const glm::dmat4& m, const glm::dvec3& p) {
-    return glm::dvec3(m * glm::dvec4(p, 1.0));
+[[noreturn]] void failEmpty(const Document& document) {
+    const std::string why = document.notes.empty() ? "" : fmt::format(" ({})", document.notes.front());
+    document.fail(fmt::format("holds no triangles: there is nothing to draw{}", why));
 }
 
 /// Reads the mesh of every placed node, primitive by primitive.
@@ -77,47 +79,6 @@ Aabb boundsOf(const std::vector<Instance>& instances, const std::vector<PlacedNo
     return bounds;
 }
 
-/// A point near `view`, on a grid of a power of two metres, about four times the radius of the scene and at
-/// most 64.
-///
-/// Why a grid: if the scene moves by a multiple of the grid step, the origin moves by exactly as much, every
-/// difference to it is the same, and so is every float. 1e6 = 2^6 * 15625 is a multiple of every step up
-/// to 64. With the view itself as origin, the rounding of its coordinate out there (6e-11 m at 1e6) would
-/// shift everything, and one float in some hundred would come out another one. Why four times: an ordinary
-/// scene around its file's origin then keeps the file's own numbers. What the grid costs is a few bits of
-/// float precision at most, since |p| stays below about three radii.
-glm::dvec3 chooseOrigin(const glm::dvec3& view, double radius) {
-    // The factor 1.37 and the shift 0.382 keep round numbers (a radius of 2, a camera at 4) away from where
-    // the rounding flips, since such a number may be off by a rounding error in the moved scene.
-    const double exponent = std::floor(std::log2(4.0 * 1.37 * std::max(radius, 1e-6)));
-    const double step = std::exp2(std::min(exponent, 6.0));
-    return glm::floor(view / step + 0.382) * step;
-}
-
-PartMesh placeMesh(LocalMesh&& local, const glm::dmat4& sceneFromMesh, const glm::dmat3& uvFromFile) {
-    PartMesh mesh;
-    mesh.indices = std::move(local.indices);
-    mesh.positions = std::move(local.positions);
-    for (glm::vec3& p : mesh.positions) p = glm::vec3(transformPoint(sceneFromMesh, p));
-    const glm::dmat3 linear(sceneFromMesh);
-    const bool mirrored = glm::determinant(linear) < 0.0;
-    // The cofactor matrix takes normals along without an inverse; a mirror turns it inside out.
-    glm::dmat3 normalMatrix(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                            glm::cross(linear[0], linear[1]));
-    if (mirrored) normalMatrix *= -1.0;
-    // Kept in range of float whatever the scale of the node.
-    const double size =
-        std::max({glm::length(normalMatrix[0]), glm::length(normalMatrix[1]), glm::length(normalMatrix[2])});
-    if (size > 0.0) normalMatrix /= size;
-    mesh.normals = std::move(local.normals);
-    for (glm::vec3& n : mesh.normals) n = glm::vec3(normalMatrix * glm::dvec3(n));
-    mesh.uvs = std::move(local.uvs);
-    for (glm::vec2& uv : mesh.uvs) uv = glm::vec2(uvFromFile * glm::dvec3(uv, 1.0));
-    for (std::size_t t = 0; mirrored && t < mesh.indices.size(); t += 3)
-        std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
-    return mesh;
-}
-
 void requireFloats(const Document& document, const PartMesh& mesh, const std::string& name) {
     for (const glm::vec3& p : mesh.positions) {
         // Squares of coordinates are formed in float in shaders: beyond this they overflow.
@@ -142,7 +103,7 @@ void flatten(Document& document, std::vector<Instance>& instances, const std::ve
             appendPart(scene, std::move(mesh), materials.sceneMaterial(instance.material), instance.name);
     }
     if (repaired > 0) document.note(fmt::format("{} normals had no direction and were replaced", repaired));
-    if (scene.parts.empty()) document.fail("holds no triangles: there is nothing to draw");
+    if (scene.parts.empty()) failEmpty(document);
 }
 
 Scene buildScene(Document& document) {
@@ -153,7 +114,7 @@ Scene buildScene(Document& document) {
     std::vector<PlacedNode> nodes = placeNodes(document, glm::dvec3(0.0));
     std::vector<Instance> instances = readInstances(document, nodes, materials);
     const Aabb bounds = boundsOf(instances, nodes);
-    if (bounds.empty()) document.fail("holds no triangles: there is nothing to draw");
+    if (bounds.empty()) failEmpty(document);
     addCameras(document, nodes, scene);
     const glm::dvec3 view = scene.cameras.empty() ? bounds.centre() : scene.cameras[0].position;
     scene.cameras.clear();
