@@ -117,6 +117,7 @@ struct RayTracer::State {
     std::uint32_t partOf(std::uint32_t triangle) const;
     Hit hitAt(std::uint32_t triangle, const glm::dvec2& barycentric) const;
     bool occludedExactly(const ShadowRay& ray, int ignorePart);
+    void traceOne(const ShadowRay& ray, std::uint8_t& blocked, Query& query) const;
     void traceSixteen(std::span<const ShadowRay> rays, std::uint8_t* blocked, Query& query) const;
 };
 
@@ -238,35 +239,52 @@ Hit RayTracer::nearest(const Ray& ray, int ignorePart) const {
     return state_->hitAt(triangle, exactBarycentrics(ray, query.triangle(triangle), fallback));
 }
 
-/// The float ray that Embree gets, in lane `i`. It starts behind its origin and ends behind its target by 64
-/// ulps of the largest coordinate in play: rounding origin and direction moves it by 2 of them, and Embree's
-/// own arithmetic in robust mode by fewer than 8, so whatever the exact ray touches near its ends becomes a
+/// The float ray that Embree gets. It starts behind its origin and ends behind its target by 64 ulps of the
+/// largest coordinate in play: rounding origin and direction moves it by 2 of them, and Embree's own
+/// arithmetic in robust mode by fewer than 8, so whatever the exact ray touches near its ends becomes a
 /// candidate.
-static bool packRay(const ShadowRay& ray, double reach, int i, RTCRay16& packet) {
+static RTCRay floatRay(const ShadowRay& ray, double reach, unsigned id) {
     const glm::dvec3 direction = ray.towardsInfinity ? ray.target : ray.target - ray.origin;
     const double length = glm::length(direction);
     const double back = 0x1p-18 * std::max(reach, largestCoordinate(ray.origin));
     const glm::dvec3 unit = direction * (1.0 / length);
     const glm::vec3 o(ray.origin - back * unit), d(unit);
-    packet.org_x[i] = o.x, packet.org_y[i] = o.y, packet.org_z[i] = o.z;
-    packet.dir_x[i] = d.x, packet.dir_y[i] = d.y, packet.dir_z[i] = d.z;
-    packet.tnear[i] = 0.0f;
-    packet.time[i] = 0.0f;
-    packet.mask[i] = 0xffffffffu;
-    packet.id[i] = unsigned(i);
-    packet.flags[i] = 0;
-    packet.tfar[i] =
+    const float far =
         ray.towardsInfinity ? std::numeric_limits<float>::infinity() : float(length + 3.0 * back);
-    return length > 0.0;
+    // A ray of no length has nothing strictly between its ends; a negative far end tells Embree to leave it
+    // out.
+    return {o.x, o.y, o.z, 0.0f, d.x, d.y, d.z, 0.0f, length > 0.0 ? far : -1.0f, 0xffffffffu, id, 0};
+}
+
+void RayTracer::State::traceOne(const ShadowRay& ray, std::uint8_t& blocked, Query& query) const {
+    RTCRay single = floatRay(ray, reach, 0);
+    if (single.tfar < 0.0f) {
+        blocked = 0;
+        return;
+    }
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &query.embree;
+    rtcOccluded1(embree, &single, &arguments);
+#else
+    rtcOccluded1(embree, &query.embree, &single);
+#endif
+    blocked = single.tfar < 0.0f ? 1 : 0;
 }
 
 void RayTracer::State::traceSixteen(std::span<const ShadowRay> rays, std::uint8_t* blocked,
                                     Query& query) const {
     alignas(64) int valid[packetSize] = {};
     alignas(64) RTCRay16 packet;
-    for (std::size_t i = 0; i < rays.size(); ++i) valid[i] = packRay(rays[i], reach, int(i), packet) ? -1 : 0;
-    query.rays = rays.data();
-    query.passedAnEdge.fill(false);
+    for (unsigned i = 0; i < rays.size(); ++i) {
+        const RTCRay ray = floatRay(rays[i], reach, i);
+        packet.org_x[i] = ray.org_x, packet.org_y[i] = ray.org_y, packet.org_z[i] = ray.org_z;
+        packet.dir_x[i] = ray.dir_x, packet.dir_y[i] = ray.dir_y, packet.dir_z[i] = ray.dir_z;
+        packet.tnear[i] = ray.tnear, packet.tfar[i] = ray.tfar, packet.time[i] = ray.time;
+        packet.mask[i] = ray.mask, packet.id[i] = ray.id, packet.flags[i] = ray.flags;
+        valid[i] = ray.tfar >= 0.0f ? -1 : 0;
+    }
 #if RTC_VERSION_MAJOR >= 4
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
@@ -287,7 +305,13 @@ void RayTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t
     Query query = state_->query(ignorePart);
     for (std::size_t first = 0; first < rays.size(); first += packetSize) {
         const auto packet = rays.subspan(first, std::min<std::size_t>(packetSize, rays.size() - first));
-        state_->traceSixteen(packet, &blocked[first], query);
+        query.rays = packet.data();
+        query.passedAnEdge.fill(false);
+        if (packet.size() == 1) {
+            state_->traceOne(packet[0], blocked[first], query);
+        } else {
+            state_->traceSixteen(packet, &blocked[first], query);
+        }
         for (std::size_t i = 0; i < packet.size(); ++i) {
             if (query.passedAnEdge[i] && !blocked[first + i])
                 blocked[first + i] = state_->occludedExactly(packet[i], ignorePart) ? 1 : 0;

@@ -24,6 +24,8 @@ namespace penumbra {
 /// A surface point, recomputed in double from the triangle's barycentrics (never o + t d).
 struct Hit {
     bool valid = false;
+    bool fromBehind =
+        false;  ///< the eye sees the back of the face, and the normals were flipped (faceTheEye)
     std::uint32_t triangle = 0;  ///< index into Scene::indices / 3
     std::uint32_t part = 0;
     glm::dvec3 position{0.0};

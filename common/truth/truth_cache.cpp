@@ -170,7 +170,6 @@ ContentHash& ContentHash::geometry(const Scene& scene) {
     array(std::span(scene.positions)).array(std::span(scene.normals)).array(std::span(scene.indices));
     for (const Part& part : scene.parts) {
         number(std::int64_t(part.firstTriangle)).number(std::int64_t(part.triangleCount));
-        number(std::int64_t(scene.materials.at(std::size_t(part.material)).doubleSided));
     }
     return *this;
 }

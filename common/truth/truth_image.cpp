@@ -86,9 +86,9 @@ bool isAreaTruth(const Light& light, bool asPoint) {
 
 }  // namespace
 
-void faceTheEye(Hit& hit, const Scene& scene, const Ray& ray) {
+void faceTheEye(Hit& hit, const Ray& ray) {
     if (!hit.valid || glm::dot(hit.geometricNormal, ray.direction) <= 0.0) return;
-    if (!scene.materials[std::size_t(scene.parts[hit.part].material)].doubleSided) return;
+    hit.fromBehind = true;
     hit.geometricNormal = -hit.geometricNormal;
     hit.shadingNormal = -hit.shadingNormal;
 }
@@ -113,7 +113,7 @@ PrimaryHits primaryHits(const RayTracer& tracer, const Camera& camera, const glm
             const std::size_t corner = std::size_t(y) * columns + x;
             for (const std::size_t k : {corner, corner + 1, corner + columns, corner + columns + 1})
                 result.straddling[i] |= smoothlyConnected(hit, corners[k]) ? 0 : 1;
-            faceTheEye(hit, tracer.scene(), ray);
+            faceTheEye(hit, ray);
         }
     };
     parallelRows(size.y, centreRow,

@@ -39,8 +39,8 @@ struct PrimaryHits {
 PrimaryHits primaryHits(const RayTracer& tracer, const Camera& camera, const glm::ivec2& size,
                         const ProgressCallback& progress = {});
 
-/// Both normals of a hit of a double-sided material, flipped if they face away from the eye that sent `ray`.
-void faceTheEye(Hit& hit, const Scene& scene, const Ray& ray);
+/// Flips both normals if the eye that sent `ray` sees the back of the face.
+void faceTheEye(Hit& hit, const Ray& ray);
 
 /// Exact visibility of `light` (an area light counts as a point at its centre when `asPoint`, else the
 /// visible share of its unoccluded irradiance). Undefined where the surface faces away from the light (by
