@@ -19,6 +19,14 @@ fs::file_time_type timeOf(const fs::path& file) {
     return missing ? fs::file_time_type::min() : time;
 }
 
+/// A program deleted while in use would live on until another is used; putting it back into use then fails.
+void deleteProgram(GLuint id) {
+    GLint current = 0;
+    glGetIntegerv(GL_CURRENT_PROGRAM, &current);
+    if (GLuint(current) == id) glUseProgram(0);
+    glDeleteProgram(id);
+}
+
 }  // namespace
 
 struct Program::State {
@@ -75,7 +83,7 @@ Program& Program::operator=(Program&& other) noexcept {
 }
 
 Program::~Program() {
-    if (id_ != 0) glDeleteProgram(id_);
+    if (id_ != 0) deleteProgram(id_);
 }
 
 void Program::use() {
@@ -130,9 +138,7 @@ bool Program::sourcesChanged() const {
 
 std::string Program::reload() {
     try {
-        const GLuint old = std::exchange(id_, state_->build());
-        glUseProgram(id_);  // the old one may be in use, and then it would linger
-        glDeleteProgram(old);
+        deleteProgram(std::exchange(id_, state_->build()));
         return {};
     } catch (const Error& error) {
         return error.what();
