@@ -11,8 +11,20 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// The infinite cone from x over a triangle: three planes through x, normals inward.
-using Cone = std::array<glm::dvec3, 3>;
+/// What a triangle hides, relative to x: the points in the infinite cone from x over it (three planes through
+/// x, normals inward) and beyond its own plane. Asking the light's points for that, instead of cutting the
+/// triangle off at the light's plane, needs no extra corners, and keeps its digits when x is nearly in the
+/// light's plane.
+struct Cone {
+    std::array<glm::dvec3, 3> inward;
+    glm::dvec3 beyond;  ///< the triangle's normal on the side away from x
+    glm::dvec3 corner;  ///< a point of the triangle
+
+    /// >= 0 on the inner side of plane `i`; the planes of the cone are 0, 1, 2, the triangle's own is 3.
+    double side(int i, const glm::dvec3& p) const {
+        return i < 3 ? glm::dot(inward[std::size_t(i)], p) : glm::dot(beyond, p - corner);
+    }
+};
 
 /// A visible piece of the light that still has to be cut by the cones from `nextCone` on.
 struct Piece {
@@ -42,53 +54,51 @@ glm::dvec3 edgePlane(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::cross(a + b, b - a);
 }
 
-bool outsideSomePlane(const LightPyramid& pyramid, const Triangle& t) {
+/// No corner of `t` (relative to x) reaches inside one of the pyramid's planes, or in front of the light.
+bool misses(const LightPyramid& pyramid, const Triangle& t) {
+    const auto front = [&](const glm::dvec3& p) { return glm::dot(pyramid.lightNormal, p) + pyramid.height; };
+    if (std::max({front(t[0]), front(t[1]), front(t[2])}) <= pyramid.rounding) return true;
     for (const glm::dvec3& inward : pyramid.inward.span())
         if (glm::dot(inward, t[0]) <= 0.0 && glm::dot(inward, t[1]) <= 0.0 && glm::dot(inward, t[2]) <= 0.0)
             return true;
     return false;
 }
 
-/// Appends the cone over a triangle relative to x, unless it has no solid angle: degenerate, or x lies in its
-/// plane as far as doubles can tell (a surface never shadows itself).
-void appendCone(const LightPyramid& pyramid, const Triangle& t, std::vector<Cone>& cones) {
-    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-    const double volume = glm::dot(t[0], normal);
-    const double rounding = pyramid.rounding + 8.0 * epsilon * sumOfMagnitudes(t[0]);
-    if (std::abs(volume) <= rounding * glm::length(normal)) return;
-    const double sign = volume > 0.0 ? 1.0 : -1.0;
-    cones.push_back(
-        {sign * edgePlane(t[0], t[1]), sign * edgePlane(t[1], t[2]), sign * edgePlane(t[2], t[0])});
+bool isOutside(const Cone& cone, const Polygon3& polygon, int plane, double tolerance) {
+    for (int i = 0; i < polygon.count; ++i)
+        if (cone.side(plane, polygon[i]) > tolerance) return false;
+    return true;
 }
 
-/// Appends the cones over what `triangle` (relative to x) has between x and the light's plane: what is behind
-/// the light, or is the light's own surface, shadows nothing.
-void appendCones(const LightPyramid& pyramid, const Triangle& triangle, std::vector<Cone>& cones) {
-    if (outsideSomePlane(pyramid, triangle)) return;
-    double front[3];
-    for (int i = 0; i < 3; ++i) front[i] = pyramid.inFrontOfLight(triangle[std::size_t(i)]);
-    if (std::max({front[0], front[1], front[2]}) <= pyramid.rounding) return;
-    if (std::min({front[0], front[1], front[2]}) >= 0.0) return appendCone(pyramid, triangle, cones);
-    const Polygon3 part =
-        clip(Polygon3(triangle), [&](const glm::dvec3& p) { return pyramid.inFrontOfLight(p); });
-    for (int i = 1; i + 1 < part.count; ++i) appendCone(pyramid, {part[0], part[i], part[i + 1]}, cones);
-}
-
-bool outsideSomePlane(const Cone& cone, const Polygon3& polygon) {
-    for (const glm::dvec3& inward : cone) {
-        bool allOutside = true;
-        for (int i = 0; i < polygon.count && allOutside; ++i)
-            allOutside = glm::dot(inward, polygon[i]) <= 0.0;
-        if (allOutside) return true;
-    }
+/// Outside one of the planes: the cone hides nothing of the polygon.
+bool misses(const Cone& cone, const Polygon3& polygon) {
+    for (int plane = 0; plane < 4; ++plane)
+        if (isOutside(cone, polygon, plane, 0.0)) return true;
     return false;
 }
 
 bool covers(const Cone& cone, const Polygon3& polygon) {
-    for (const glm::dvec3& inward : cone)
+    for (int plane = 0; plane < 4; ++plane)
         for (const glm::dvec3& p : polygon.span())
-            if (glm::dot(inward, p) < 0.0) return false;
+            if (cone.side(plane, p) < 0.0) return false;
     return true;
+}
+
+/// Appends the cone over triangle `t` (relative to x), unless it can hide nothing of the light: beside the
+/// pyramid; degenerate; behind the light or part of its surface; or with x in its plane as far as doubles can
+/// tell (no surface shadows itself).
+void appendCone(const LightPyramid& pyramid, const Triangle& t, std::vector<Cone>& cones) {
+    if (misses(pyramid, t)) return;
+    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+    const double volume = glm::dot(t[0], normal);
+    const double tolerance = (pyramid.rounding + 8.0 * epsilon * sumOfMagnitudes(t[0])) * glm::length(normal);
+    if (std::abs(volume) <= tolerance) return;
+    const double sign = volume > 0.0 ? 1.0 : -1.0;
+    const Cone cone = {
+        {sign * edgePlane(t[0], t[1]), sign * edgePlane(t[1], t[2]), sign * edgePlane(t[2], t[0])},
+        sign * normal,
+        t[0]};
+    if (!isOutside(cone, pyramid.light, 3, tolerance)) cones.push_back(cone);
 }
 
 /// A piece that has grown many corners is halved along a diagonal, so that it always has room to be cut.
@@ -106,12 +116,12 @@ double subtract(const LightPyramid& pyramid, Piece piece, Workspace& work) {
     Polygon3 inside, outside;
     for (std::size_t i = piece.nextCone; i < work.cones.size(); ++i) {
         const Cone& cone = work.cones[i];
-        if (outsideSomePlane(cone, piece.polygon)) continue;
+        if (misses(cone, piece.polygon)) continue;
         double sum = 0.0;
-        for (const glm::dvec3& inward : cone) {
+        for (int plane = 0; plane < 4; ++plane) {
             if (piece.polygon.count > Polygon3::capacity / 2) halve(piece.polygon, i, work.pieces);
-            split(
-                piece.polygon, [&](const glm::dvec3& p) { return glm::dot(inward, p); }, inside, outside);
+            const auto side = [&](const glm::dvec3& p) { return cone.side(plane, p); };
+            split(piece.polygon, side, inside, outside);
             if (i + 1 == work.cones.size())
                 sum += lambertFormFactor(pyramid.normal, outside);
             else if (!outside.empty())
@@ -172,10 +182,8 @@ double visibleFormFactor(const LightPyramid& pyramid, std::span<const Triangle> 
     work.cones.clear();
     work.pieces.clear();
     for (const Triangle& t : occluders) {
-        const std::size_t before = work.cones.size();
-        appendCones(pyramid, {t[0] - pyramid.x, t[1] - pyramid.x, t[2] - pyramid.x}, work.cones);
-        for (std::size_t i = before; i < work.cones.size(); ++i)
-            if (covers(work.cones[i], pyramid.light)) return 0.0;
+        appendCone(pyramid, {t[0] - pyramid.x, t[1] - pyramid.x, t[2] - pyramid.x}, work.cones);
+        if (!work.cones.empty() && covers(work.cones.back(), pyramid.light)) return 0.0;
     }
     const double whole = unoccludedFormFactor(pyramid);
     if (work.cones.empty()) return whole;

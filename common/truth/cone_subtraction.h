@@ -30,8 +30,6 @@ struct LightPyramid {
         0.0;  ///< positions below this distance from a plane are on it, as far as doubles can tell
 
     bool empty() const { return light.empty(); }
-    /// Distance of a point (relative to x) in front of the light's plane.
-    double inFrontOfLight(const glm::dvec3& p) const { return glm::dot(lightNormal, p) + height; }
 };
 
 /// `polygon`: convex, planar, counter-clockwise seen from its front, at most 12 vertices; `n` unit.

@@ -55,18 +55,21 @@ double lambertFormFactor(const glm::dvec3& n, const Polygon3& polygon) {
     const glm::dvec3 c = polygon[first];
     const double cc = glm::dot(c, c);
     const double k = 1.0 / cc;
+    glm::dvec3 a = c;
     glm::dvec3 alpha(0.0);  // a - c
     double sum = 0.0;
     double twiceArea = 0.0;
     for (int i = 0, at = first; i < polygon.count; ++i) {
         at = polygon.next(at);
-        const glm::dvec3 beta = polygon[at] - c;  // b - c
-        const glm::dvec3 corner = glm::cross(alpha, beta);
-        const glm::dvec3 axb = glm::cross(c, beta - alpha) + corner;
-        const double excess = glm::dot(c, alpha + beta) + glm::dot(alpha, beta);  // a.b - |c|^2
-        const double adotb = cc + excess;
+        const glm::dvec3 b = polygon[at];
+        const glm::dvec3 beta = b - c;
+        const glm::dvec3 edge = b - a;
+        const glm::dvec3 axb =
+            glm::cross(a, edge);  // not a x b: it loses the digits of a short edge far away
         const double squared = glm::dot(axb, axb);
-        double weight = 0.0;  // theta/l - k
+        const double adotb = glm::dot(a, b);
+        const double excess = glm::dot(c, alpha + beta) + glm::dot(alpha, beta);  // a.b - |c|^2
+        double weight = 0.0;                                                      // theta/l - k
         if (adotb > 0.0 && squared <= 0.4356 * adotb * adotb) {
             const double inverse = 1.0 / adotb;
             const double z = squared * inverse * inverse;
@@ -77,7 +80,8 @@ double lambertFormFactor(const glm::dvec3& n, const Polygon3& polygon) {
             weight = std::atan2(l, adotb) / l - k;
         }
         sum += glm::dot(n, axb) * weight;
-        twiceArea += glm::dot(n, corner);
+        twiceArea += glm::dot(n, glm::cross(alpha, edge));
+        a = b;
         alpha = beta;
     }
     return std::max(0.0, -(sum + k * twiceArea) / (2.0 * std::numbers::pi));
