@@ -6,9 +6,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
 
 #include "common/error.h"
 #include "common/image/file_write.h"
+#include "common/image/png_chunks.h"
 #include "common/image/srgb.h"
 
 namespace penumbra {
@@ -75,12 +81,46 @@ void requireReadable(const OIIO::ImageSpec& spec, std::size_t maxPixels, const s
                                 spec.width, spec.height, maxPixels));
 }
 
-/// Colour bytes as stored, not multiplied by alpha: the default would darken transparent texels.
-OIIO::ImageSpec untouchedAlpha() {
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    return config;
+std::string bytesOfFile(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    if (!in.is_open() || in.bad())
+        throw Error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
+    return bytes;
 }
+
+/// An encoded picture in memory, opened: its size is known, its pixels are not unpacked yet.
+class OpenPicture {
+ public:
+    OpenPicture(const std::uint8_t* bytes, std::size_t count, const std::string& extension, std::string name)
+        : name_(std::move(name)),
+          png_(isPng(bytes, count) ? essentialPng(bytes, count, name_) : std::vector<std::uint8_t>()),
+          memory_(png_.empty() ? const_cast<std::uint8_t*>(bytes) : png_.data(),
+                  png_.empty() ? count : png_.size()) {
+        OIIO::ImageSpec config;
+        // Colour bytes as stored, not multiplied by alpha: the default would darken transparent texels.
+        config.attribute("oiio:UnassociatedAlpha", 1);
+        OIIO::Filesystem::IOProxy* proxy = &memory_;
+        config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+        input_ = OIIO::ImageInput::open("memory" + extension, &config, proxy);
+        if (!input_)
+            throw Error(fmt::format("{}: not a readable picture: {}", name_, oneLine(OIIO::geterror())));
+    }
+    OpenPicture(const OpenPicture&) = delete;
+    OpenPicture& operator=(const OpenPicture&) = delete;
+
+    const OIIO::ImageSpec& spec() const { return input_->spec(); }
+    void readInto(OIIO::TypeDesc type, void* pixels) {
+        if (!input_->read_image(0, 0, 0, -1, type, pixels))
+            throw Error(fmt::format("{}: damaged picture: {}", name_, oneLine(input_->geterror())));
+    }
+
+ private:
+    std::string name_;
+    std::vector<std::uint8_t> png_;
+    OIIO::Filesystem::IOMemReader memory_;
+    std::unique_ptr<OIIO::ImageInput> input_;
+};
 
 bool isSrgbEncoded(const OIIO::ImageSpec& spec) {
     return spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16;
@@ -105,11 +145,10 @@ void expandToRgba(const std::vector<std::uint8_t>& source, int channels, std::ve
     }
 }
 
-const char* formatByMagic(const std::uint8_t* bytes, std::size_t count) {
-    if (count >= 8 && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G')
-        return "memory.png";
-    if (count >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff) return "memory.jpg";
-    return nullptr;
+const char* extensionByMagic(const std::uint8_t* bytes, std::size_t count) {
+    if (isPng(bytes, count)) return ".png";
+    const bool jpeg = count >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
+    return jpeg ? ".jpg" : nullptr;
 }
 
 }  // namespace
@@ -128,35 +167,27 @@ void writeImage(const std::filesystem::path& file, const FloatImage& image,
 }
 
 FloatImage readImage(const std::filesystem::path& file) {
-    const OIIO::ImageSpec config = untouchedAlpha();
-    auto input = OIIO::ImageInput::open(file.string(), &config);
-    if (!input)
-        throw Error(
-            fmt::format("{}: cannot be read as a picture: {}", file.string(), oneLine(OIIO::geterror())));
-    const OIIO::ImageSpec spec = input->spec();
-    requireReadable(spec, pixelLimit, file.string());
-    FloatImage image(spec.width, spec.height, spec.nchannels);
-    if (!input->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, image.values.data()))
-        throw Error(fmt::format("{}: broken picture: {}", file.string(), oneLine(input->geterror())));
-    if (isSrgbEncoded(spec)) decodeColour(image);
+    const std::string bytes = bytesOfFile(file);
+    OpenPicture picture(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
+                        lowerExtension(file), file.string());
+    requireReadable(picture.spec(), pixelLimit, file.string());
+    FloatImage image(picture.spec().width, picture.spec().height, picture.spec().nchannels);
+    picture.readInto(OIIO::TypeDesc::FLOAT, image.values.data());
+    if (isSrgbEncoded(picture.spec())) decodeColour(image);
     return image;
 }
 
 DecodedImage decodeImage(const std::uint8_t* bytes, std::size_t count, const std::string& name,
                          std::size_t maxPixels) {
-    const char* format = formatByMagic(bytes, count);
-    if (!format) throw Error(fmt::format("{}: neither a PNG nor a JPEG picture", name));
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(bytes), count);
-    const OIIO::ImageSpec config = untouchedAlpha();
-    auto input = OIIO::ImageInput::open(format, &config, &memory);
-    if (!input) throw Error(fmt::format("{}: broken picture: {}", name, oneLine(OIIO::geterror())));
-    const OIIO::ImageSpec spec = input->spec();
+    const char* extension = extensionByMagic(bytes, count);
+    if (!extension) throw Error(fmt::format("{}: neither a PNG nor a JPEG picture", name));
+    OpenPicture picture(bytes, count, extension, name);
+    const OIIO::ImageSpec& spec = picture.spec();
     requireReadable(spec, maxPixels, name);
     DecodedImage image{spec.width, spec.height, {}};
     const std::size_t pixels = std::size_t(spec.width) * std::size_t(spec.height);
     std::vector<std::uint8_t> stored(pixels * std::size_t(spec.nchannels));
-    if (!input->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, stored.data()))
-        throw Error(fmt::format("{}: broken picture: {}", name, oneLine(input->geterror())));
+    picture.readInto(OIIO::TypeDesc::UINT8, stored.data());
     image.rgba.resize(4 * pixels);
     expandToRgba(stored, spec.nchannels, image.rgba);
     return image;
