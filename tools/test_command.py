@@ -78,7 +78,8 @@ def chosenSteps(options):
     return fast() if options.fast else everything()
 
 
-def main(words):
+def parse(words):
+    """Leaves with status 2 when they are wrong."""
     parser = argparse.ArgumentParser(prog="./test", description=__doc__, allow_abbrev=False,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("chapter", nargs="?", help="number or name of one chapter")
@@ -88,6 +89,11 @@ def main(words):
     options = parser.parse_args(words)
     if options.chapter and not house.findChapter(build.ROOT, options.chapter):
         parser.error(f"there is no chapter {options.chapter}; there are {', '.join(house.chapterNames(build.ROOT))}")
+    return options
+
+
+def main(words):
+    options = parse(words)
     build.install("test")
     test_page.clear()
     passed, failed = perform(chosenSteps(options))

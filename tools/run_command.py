@@ -21,31 +21,33 @@ import gallery
 import house
 
 
-def runChapter(name, flags):
-    build.build("release", [name])
-    program = build.folder("release") / "bin" / name
-    os.execv(program, [str(program), *flags])
-
-
-def main(words):
+def parse(words):
+    """(chapter's name or None, its flags, options of ./run itself or None for help). Leaves with status 2 when wrong."""
     if words and words[0] in ("-h", "--help"):
-        print(__doc__.strip())
-        return 0
-    chapters = house.chapterNames(build.ROOT)
+        return None, [], None
+    parser = argparse.ArgumentParser(prog="./run", add_help=False, allow_abbrev=False)
     if words and not words[0].startswith("-"):
         name = house.findChapter(build.ROOT, words[0])
         if not name:
-            print(f"there is no chapter {words[0]}; there are {', '.join(chapters)}", file=sys.stderr)
-            return 2
-        build.install("run")
-        return runChapter(name, words[1:])
-    parser = argparse.ArgumentParser(prog="./run", add_help=False, allow_abbrev=False)
+            parser.error(f"there is no chapter {words[0]}; there are {', '.join(house.chapterNames(build.ROOT))}")
+        return name, words[1:], None
     parser.add_argument("--build", action="store_true")
     parser.add_argument("--scene", default="courtyard")
     parser.add_argument("--size", default="512x512")
-    options = parser.parse_args(words)
+    return None, [], parser.parse_args(words)
+
+
+def main(words):
+    chapter, flags, options = parse(words)
+    if not chapter and not options:
+        print(__doc__.strip())
+        return 0
     build.install("run")
-    build.build("release", [*chapters, "make_assets"])
+    chapters = house.chapterNames(build.ROOT)
+    build.build("release", [chapter] if chapter else [*chapters, "make_assets"])
+    if chapter:
+        program = build.folder("release") / "bin" / chapter
+        os.execv(program, [str(program), *flags])
     return 0 if options.build else gallery.render(chapters, options.scene, options.size)
 
 
