@@ -79,7 +79,7 @@ void ShadowMap::render(Program& program, const Frame& frame, const Light& light,
     program.set("uLightClipFromWorld", glm::mat4(lightClipFromWorld));
     program.prepareToDraw();
     const DrawCounts drawn =
-        frame.gpu->drawDepth({&visible, draw.cullClosed && frame.skip, draw.frontFacesInstead, light.part});
+        frame.gpu->drawDepth({&visible, draw.cullClosed, draw.frontFacesInstead, light.part});
     held_ = wanted;
 
     frame.work["shadow_maps_rendered"] += 1;
