@@ -25,7 +25,8 @@ Polygon2 shadowPolygon(const Triangle& triangle, const glm::dvec3& light, const 
     homogeneous = clip(homogeneous, [](const glm::dvec3& p) { return p.y; });
     homogeneous = clip(homogeneous, [](const glm::dvec3& p) { return p.z - p.y; });
     for (const glm::dvec3& p : homogeneous.span())
-        if (p.z > 0.0) shadow.push({p.x / p.z, p.y / p.z});
+        if (p.z > 0.0)
+            shadow.push(glm::clamp(glm::dvec2(p) / p.z, 0.0, 1.0));  // the division may round beyond 1
     if (shadow.count < 3) shadow.count = 0;
     return shadow;
 }
