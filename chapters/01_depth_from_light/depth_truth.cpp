@@ -1,5 +1,6 @@
 #include "chapters/01_depth_from_light/depth_truth.h"
 
+#include <atomic>
 #include <cmath>
 
 namespace penumbra {
@@ -52,20 +53,23 @@ TruthImage depthTruth(const RayTracer& tracer, const LightFrustum& frustum, cons
     truth.quantity = linear ? "distance along the light's axis" : "window depth";
     truth.method = "ray traced";
     truth.against = "texel centres";
-    for (int y = 0; y < pictureSize.y; ++y) {
+    std::atomic<std::size_t> offMap = 0, undefined = 0;
+    const auto row = [&](int y) {
         for (int x = 0; x < pictureSize.x; ++x) {
             const glm::ivec2 texel = texelShownAt({x, y}, pictureSize, mapSize);
             if (texel.x < 0) {
-                ++truth.background;
+                ++offMap;
                 continue;
             }
             const TexelDepth exact = exactTexelDepth(tracer, frustum, texel, mapSize, format, lightPart);
             truth.value.at(x, y) = float(linear ? frustum.eyeDepth(exact.value) : exact.value);
             truth.mask.at(x, y) = exact.defined ? 1.0f : 0.0f;
-            if (!exact.defined) ++truth.straddling;
+            if (!exact.defined) ++undefined;
         }
-        if (progress) progress((y + 1.0) / pictureSize.y);
-    }
+    };
+    parallelRows(pictureSize.y, row, progress);
+    truth.background = offMap;
+    truth.straddling = undefined;
     return truth;
 }
 

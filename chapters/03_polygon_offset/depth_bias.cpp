@@ -9,22 +9,6 @@ namespace penumbra {
 
 namespace {
 
-constexpr double roundOff = 0x1p-24;
-
-/// sum_j |m_ij| |x_j| for the largest x in `bounds`: what rounding errors of row i are relative to.
-glm::dvec4 magnitudes(const glm::dmat4& matrix, const Aabb& bounds) {
-    const glm::dvec3 largest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
-    glm::dvec4 sum = glm::abs(matrix[3]);
-    for (int column = 0; column < 3; ++column) sum += glm::abs(matrix[column]) * largest[column];
-    return sum;
-}
-
-double subpixelStep() {
-    GLint bits = 0;
-    glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
-    return std::ldexp(1.0, -std::max(bits, 4));  // both APIs promise at least 4
-}
-
 /// Change of window depth for a metre at `eyeDepth`.
 double depthPerMetre(const LightFrustum& frustum, double eyeDepth) {
     if (frustum.orthographic) return 1.0 / (frustum.far - frustum.near);
@@ -47,30 +31,16 @@ BiasMethod biasMethod(const std::string& name) {
     return BiasMethod(found - names.begin());
 }
 
-// [begin:errors]
-DepthErrors depthErrors(const ShadowMap& map, const LightFrustum& frustum, const Aabb& bounds) {
-    DepthErrors errors;
-    const bool fixedPoint = map.format() == DepthFormat::fixed16 || map.format() == DepthFormat::fixed24;
-    errors.quantum = fixedPoint ? glm::vec2(depthQuantum(map.format(), 1.0), 0.0) : glm::vec2(0.0, 0x1p-23);
-    errors.snap = float(0.5 * subpixelStep());
-
-    // Pass 1 transforms with 4 products and a rounded matrix; pass 2 does the same and then interpolates.
-    const glm::dvec4 sizes = magnitudes(frustum.textureFromWorld(), bounds);
-    const double gamma = (5.0 + 9.0) * roundOff;
-    errors.rounding = glm::vec3(gamma * glm::dvec3(std::max(sizes.x, sizes.y), sizes.z, sizes.w));
-
-    // The rasteriser works with z in [0,1]. Standard depth gets there by 0.5 z + 0.5, which rounds at 1 even
-    // for small z.
-    const bool standard = frustum.range == DepthRange::standard;
-    errors.rasterError = glm::vec2(standard ? 2.0 * roundOff : 0.0, 4.0 * roundOff);
-
-    const double middle = frustum.orthographic ? 0.0 : std::sqrt(frustum.near * frustum.far);
-    const double halfDiagonal = 0.5 * glm::length(frustum.texelSize(middle, map.size()));
-    constexpr double tan60 = 1.7320508075688772;
-    errors.constant = float(halfDiagonal * tan60 * depthPerMetre(frustum, middle));
-    return errors;
+DepthErrors bothPassesErrors(const ShadowMap& map, const LightFrustum& frustum, const Aabb& bounds) {
+    return depthErrors(map.format(), frustum, bounds, 3 * transformOperations);
 }
-// [end:errors]
+
+float constantBias(const LightFrustum& frustum, int mapSize) {
+    const double middle = frustum.orthographic ? 0.0 : std::sqrt(frustum.near * frustum.far);
+    const double halfDiagonal = 0.5 * glm::length(frustum.texelSize(middle, mapSize));
+    constexpr double tan60 = 1.7320508075688772;
+    return float(halfDiagonal * tan60 * depthPerMetre(frustum, middle));
+}
 
 // [begin:caster-draw]
 CasterDraw casterDraw(BiasMethod method, const ShadowMap& map, const LightFrustum& frustum,

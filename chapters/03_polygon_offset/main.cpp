@@ -41,7 +41,7 @@ class PolygonOffset : public Chapter {
         const Light& light = options_.chosenLight(frame.scene);
         const LightFrustum frustum = fitLightFrustum(
             frame.scene, light, frame.camera, double(frame.size.x) / frame.size.y, depthRange(map.format()));
-        const DepthErrors errors = depthErrors(map, frustum, frame.scene.bounds);
+        const DepthErrors errors = bothPassesErrors(map, frustum, frame.scene.bounds);
         const CasterDraw draw = casterDraw(method, map, frustum, errors, bias_);
         map.render(*depth_, frame, light, frustum, draw);
 
@@ -57,7 +57,7 @@ class PolygonOffset : public Chapter {
         glEnable(GL_DEPTH_TEST);
         setCameraAndLight(*biased_, frame, options_);
         setShadowMap(*biased_, map, frustum, light, outside_);
-        setBias(method, errors, second);
+        setBias(method, errors, second, constantBias(frustum, map.size()));
         biased_->set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
         frame.gpu->drawShaded(*biased_, seenByCamera(frame));
         // [end:passes]
@@ -87,11 +87,11 @@ class PolygonOffset : public Chapter {
     }
     // [end:peel]
 
-    void setBias(BiasMethod method, const DepthErrors& errors, const ShadowMap& second) {
+    void setBias(BiasMethod method, const DepthErrors& errors, const ShadowMap& second, float constant) {
         biased_->setTexture("uSecondLayer", GL_TEXTURE_2D, second.texture());
         biased_->set("uMethod", int(method));
         biased_->set("uBias", bias_);
-        biased_->set("uConstantBias", errors.constant);
+        biased_->set("uConstantBias", constant);
         biased_->set("uQuantum", errors.quantum);
         biased_->set("uSnap", errors.snap);
         biased_->set("uRounding", errors.rounding);

@@ -24,7 +24,7 @@ float shadowTest(vec4 pShadow, Plane plane) {
     float decided;
     if (!projectOnMap(pShadow, str, decided)) return decided;
     int mapSize = textureSize(uShadowMap, 0).x;
-    DepthSlope slope = depthSlope(uShadowTextureFromWorld, pShadow.w, str, plane, mapSize);
+    DepthSlope slope = depthSlope(uShadowTextureFromWorld, pShadow.w, str, plane);
     float Q = quantumBias(str.z), C = roundingBias(slope, pShadow.w, str.z);
     float bias = 0.0;  // none, polygon-offset, front-face: what there is was done in pass 1
 
@@ -33,15 +33,15 @@ float shadowTest(vec4 pShadow, Plane plane) {
     } else if (uMethod == methodSlope) {
         bias = slopeBias(slope, pShadow.w, mapSize) + Q + C;
     } else if (uMethod == methodNormalOffset) {
-        // Look up from a little above the surface: half a texel's corner seen at this slant, never more.
-        float sinTheta = sqrt(max(1.0 - slope.cosTheta * slope.cosTheta, 0.0));
-        vec3 offset = uBias * slope.halfTexel * (1.0 + 2.0 * uSnap) * sinTheta * plane.normal;
+        // The same S, spent along the normal: on any slope it is at most half a texel's diagonal, so nothing detaches.
+        vec3 offset = uBias * slopeBias(slope, pShadow.w, mapSize) / slope.perMetre * plane.normal;
         if (!projectOnMap(uShadowTextureFromWorld * vec4(pWorld + offset, 1.0), str, decided)) return decided;
         bias = Q + C;
     } else if (uMethod == methodReceiverPlane) {
         // Compare at the texel's centre, where the map's depth is from: S is gone, what is left is the slope's own error.
         vec2 toCentre = (vec2(texelAt(str.xy)) + 0.5) / float(mapSize) - str.xy;
-        str.z += dot(slope.value, toCentre);
+        // What the map holds ends at the far plane.
+        str.z = clamp(str.z + dot(slope.value, toCentre), 0.0, 1.0);
         vec2 unsure = 2.0 * uSnap * slope.atMost + slope.atMost - abs(slope.value);
         bias = Q + C + 0.5 / float(mapSize) * (unsure.x + unsure.y);
     }

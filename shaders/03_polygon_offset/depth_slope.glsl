@@ -16,7 +16,7 @@ struct DepthSlope {
     vec2 value;      // dz/ds, dz/dt
     vec2 atMost;     // no less than their absolute values, whatever the normal's error
     float cosTheta;  // between normal and light
-    float halfTexel; // metres from the centre of a texel to its corner, across the light
+    float perMetre; // how much nearer to the light a metre along the normal is, compared with the plane below
 };
 
 // [begin:receiver-plane]
@@ -37,7 +37,7 @@ Plane receiverPlane(vec3 pWorld, vec3 nWorld, vec3 toLight) {
 // [begin:depth-slope]
 // gs, gt, gr: gradients of s/q, t/q, r/q in the world at this point. Along the light's ray s and t stay, so gs x gt points along
 // it. On the plane gr = z_s gs + z_t gt + (something) n; crossing that out leaves the two slopes as ratios of volumes.
-DepthSlope depthSlope(mat4 textureFromWorld, float q, vec3 str, Plane plane, int mapSize) {
+DepthSlope depthSlope(mat4 textureFromWorld, float q, vec3 str, Plane plane) {
     mat4 rows = transpose(textureFromWorld);
     vec3 gs = (rows[0].xyz - str.x * rows[3].xyz) / q;
     vec3 gt = (rows[1].xyz - str.y * rows[3].xyz) / q;
@@ -51,7 +51,7 @@ DepthSlope depthSlope(mat4 textureFromWorld, float q, vec3 str, Plane plane, int
     float surely = rayLength * max(slope.cosTheta - plane.uncertainty, steepestCosine);
     slope.atMost = (abs(volumes) + plane.uncertainty * vec2(length(s), length(t))) / surely;
     slope.value = clamp(volumes / volume, -slope.atMost, slope.atMost);
-    slope.halfTexel = 0.5 / float(mapSize) * max(length(gs + gt), length(gs - gt)) / rayLength;
+    slope.perMetre = abs(dot(plane.normal, gr) - dot(slope.value, vec2(dot(plane.normal, gs), dot(plane.normal, gt))));
     return slope;
 }
 // [end:depth-slope]

@@ -1,0 +1,101 @@
+// A chapter under test, in this process: its own render() and truth(), without a command line in between.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "common/app/chapter.h"
+#include "common/gl/render_target.h"
+#include "common/scene/find_scene.h"
+#include "common/scene/gltf_loader.h"
+
+namespace penumbra {
+
+/// The one context of the process, made when first asked for, without a window. Asking for the other api
+/// makes a new one: everything made with the first must be gone by then.
+inline const Context& testContext(Api api = Api::desktop) {
+    // Never destroyed at exit: by then the driver's own statics may be gone, and it would hang.
+    static Context* context = nullptr;
+    static Api made = api;
+    if (!context || made != api) {
+        delete context;
+        context = nullptr;
+        ContextRequest request;
+        request.api = api;
+        context = createContext(request).release();
+        made = api;
+    }
+    return *context;
+}
+
+/// A scene of assets/ by name, or any file. Loaded once.
+inline const Scene& testScene(const std::string& nameOrFile) {
+    static std::map<std::string, Scene> scenes;
+    const auto found = scenes.find(nameOrFile);
+    if (found != scenes.end()) return found->second;
+    return scenes.emplace(nameOrFile, loadGltf(findScene(nameOrFile))).first->second;
+}
+
+/// One chapter with one scene.
+class ChapterHarness {
+ public:
+    ChapterHarness(std::unique_ptr<Chapter> chapter, const Scene& theScene, Api api = Api::desktop)
+        : scene(theScene),
+          camera(theScene.cameras.at(0)),
+          context_(testContext(api)),
+          gpu_(theScene, context_.capabilities()),
+          chapter_(std::move(chapter)) {
+        chapter_->declare(parameters_);
+        chapter_->load(scene, &context_);
+    }
+
+    void set(const std::string& parameter, const std::string& value) { parameters_.set(parameter, value); }
+
+    /// The picture, top row first.
+    FloatImage picture(const std::string& view, const glm::ivec2& size, int channels) {
+        if (!target_ || target_->size() != size)
+            target_ = std::make_unique<RenderTarget>(size, context_.capabilities());
+        target_->bind();
+        work.clear();
+        const ProgressCallback silent;
+        FloatImage unused;
+        chapter_->render({.scene = scene,
+                          .gpu = &gpu_,
+                          .context = &context_,
+                          .camera = camera,
+                          .size = size,
+                          .view = view,
+                          .framebuffer = target_->framebuffer(),
+                          .work = work,
+                          .seed = 0,
+                          .skip = skip,
+                          .cpuPicture = &unused,
+                          .progress = silent});
+        checkGlErrors(view.c_str());
+        return target_->read(channels);
+    }
+    FloatImage scalar(const std::string& view, const glm::ivec2& size) { return picture(view, size, 1); }
+
+    TruthImage truth(const std::string& view, const glm::ivec2& size) {
+        if (!tracer_) tracer_ = std::make_unique<RayTracer>(scene);
+        const ProgressCallback silent;
+        return chapter_->truth({scene, *tracer_, camera, size, view, silent, &context_});
+    }
+
+    const Scene& scene;
+    Camera camera;      ///< the scene's first, to be changed at will
+    bool skip = true;   ///< false: --skip-none
+    WorkCounters work;  ///< of the latest picture
+
+ private:
+    const Context& context_;
+    GpuScene gpu_;
+    std::unique_ptr<Chapter> chapter_;
+    Parameters parameters_;
+    std::unique_ptr<RenderTarget> target_;
+    std::unique_ptr<RayTracer> tracer_;
+};
+
+}  // namespace penumbra
