@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/text/spelling.h"
 #include "common/error.h"
 #include "common/gl/gl.h"
 #include "common/image/tone_map.h"
 #include "common/scene/find_scene.h"
 #include "common/scene/gltf_loader.h"
 #include "common/scene/light.h"
+#include "common/text/spelling.h"
 
 namespace penumbra {
 namespace {
@@ -98,11 +98,22 @@ void ChapterSession::render(const FrameRequest& request) {
 
 void ChapterSession::renderOffScreen(FrameRequest request) {
     if (context_) {
-        if (!target_ || target_->size() != request.size)
-            target_ = std::make_unique<RenderTarget>(request.size, context_->capabilities());
+        if (!target_ || target_->size() != request.size) target_ = makeTarget(request.size);
         request.framebuffer = target_->framebuffer();
     }
     render(request);
+}
+
+std::unique_ptr<RenderTarget> ChapterSession::makeTarget(const glm::ivec2& size) {
+    target_.reset();  // two large pictures need not fit at once
+    try {
+        auto target = std::make_unique<RenderTarget>(size, context_->capabilities());
+        checkGlErrors("render target");
+        return target;
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}x{} pixels are too many for {}; use a smaller --size or --antialias ({})",
+                                size.x, size.y, context_->renderer(), error.what()));
+    }
 }
 
 FloatImage ChapterSession::readBack(const std::string& name) const {

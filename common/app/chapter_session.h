@@ -63,6 +63,8 @@ class ChapterSession {
     FloatImage display(const FloatImage& picture, const ViewInfo& view) const;
 
  private:
+    std::unique_ptr<RenderTarget> makeTarget(const glm::ivec2& size);
+
     const ChapterInfo& info_;
     Parameters& parameters_;
     const Options& options_;

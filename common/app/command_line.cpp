@@ -6,8 +6,8 @@
 #include <charconv>
 
 #include "common/app/flag.h"
-#include "common/text/spelling.h"
 #include "common/error.h"
+#include "common/text/spelling.h"
 
 namespace penumbra {
 namespace {
@@ -50,17 +50,28 @@ std::string withoutDashes(const std::string& argument) {
                                  didYouMean("--" + withoutDashes(argument), names)));
 }
 
+/// CLI11 would take "--quiet=off" and "--help=3" as it pleases.
+void refuseValuesOfSwitches(const std::vector<Flag>& flags, int argc, const char* const* argv) {
+    for (const Flag& flag : flags) {
+        if (flag.value != Flag::Value::none) continue;
+        const std::string begin = "--" + flag.name + "=";
+        for (int i = 1; i < argc; ++i)
+            if (std::string(argv[i]).rfind(begin, 0) == 0)
+                throw UsageError(fmt::format("{}: --{} takes no value", argv[i], flag.name));
+    }
+}
+
 void parseFlags(const std::vector<Flag>& flags, int argc, const char* const* argv) {
+    refuseValuesOfSwitches(flags, argc, argv);
     CLI::App parser;
     addToParser(parser, flags);
     try {
         parser.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        // What is left for CLI11 to find: a flag without its value, a value for a switch.
+        // What is left for CLI11 to find: a flag without its value. Its message begins with the flag.
         const std::string text = error.what();
         throw UsageError(
-            fmt::format("{}: takes {}; see --help", text.substr(0, text.find_first_of(": ")),
-                        dynamic_cast<const CLI::ConversionError*>(&error) ? "no value" : "one value"));
+            fmt::format("{}: needs a value; see --help", text.substr(0, text.find_first_of(": "))));
     }
     const std::vector<std::string> unknown = parser.remaining();
     if (!unknown.empty()) refuseUnknown(unknown.front(), flags);

@@ -53,10 +53,13 @@ void appendExamples(std::string& out, const std::string& name, const Parameters&
     out += fmt::format("  {} --compare-truth --view error --output out/error.png\n", name);
     out += fmt::format("  {} --runs 20 --compare-truth --report out/report.json\n", name);
     const auto& all = parameters.all();
-    const auto numeric =
-        std::find_if(all.begin(), all.end(), [](const Parameter& p) { return p.defaultValue.index() < 2; });
-    if (numeric != all.end())
-        out += fmt::format("  {} --{} {}\n", name, numeric->name, shortNumber(numeric->high));
+    const auto last =
+        std::find_if(all.rbegin(), all.rend(), [](const Parameter& p) { return p.defaultValue.index() < 2; });
+    if (last == all.rend()) return;
+    const double doubled = 2.0 * (last->defaultValue.index() == 0 ? std::get<int>(last->defaultValue)
+                                                                  : std::get<float>(last->defaultValue));
+    const bool allowed = doubled >= last->low && doubled <= last->high;
+    out += fmt::format("  {} --{} {}\n", name, last->name, shortNumber(allowed ? doubled : last->high));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <climits>
 #include <cstring>
 #include <mutex>
+#include <vector>
 
 #include "common/error.h"
 
@@ -51,6 +52,16 @@ void makeFolders(const fs::path& file) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) failWrite(file, fmt::format("no folder {} ({})", folder.string(), error.message()));
+}
+
+/// Folders above `file` that do not exist, the deepest first.
+std::vector<fs::path> missingFolders(const fs::path& file) {
+    std::vector<fs::path> missing;
+    std::error_code ignored;
+    for (fs::path folder = file.parent_path(); !folder.empty() && !fs::exists(folder, ignored);
+         folder = folder.parent_path())
+        missing.push_back(folder);
+    return missing;
 }
 
 bool isSpecial(const fs::path& file) {
@@ -119,9 +130,12 @@ void writeFile(const fs::path& file, std::string_view bytes) {
 }
 
 void requireWritable(const fs::path& file) {
-    makeFolders(file);
     if (isSpecial(file)) return;
-    const TemporaryFile removedAgain(resolved(file));
+    const std::vector<fs::path> missing = missingFolders(file);
+    makeFolders(file);
+    { const TemporaryFile removedAgain(resolved(file)); }
+    std::error_code ignored;
+    for (const fs::path& folder : missing) fs::remove(folder, ignored);
 }
 
 void removeUnfinishedFile() noexcept {

@@ -13,7 +13,7 @@ namespace penumbra {
 void writeFile(const std::filesystem::path& file, std::string_view bytes);
 
 /// Throws the Error that `writeFile` would, as far as can be known before there is anything to write: so that
-/// a wrong path is reported at once and not after a minute of rendering.
+/// a wrong path is reported at once and not after a minute of rendering. Leaves nothing behind.
 void requireWritable(const std::filesystem::path& file);
 
 /// Deletes the temporary file of a write in progress, if any. Async-signal-safe: for the handler of Ctrl-C.
