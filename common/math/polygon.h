@@ -47,7 +47,8 @@ struct ConvexPolygon {
         if (count == capacity) throwPolygonOverflow();
         vertices[std::size_t(count++)] = p;
     }
-    std::span<const Point> span() const { return {vertices.data(), std::size_t(count)}; }
+    std::span<const Point> span() const& { return {vertices.data(), std::size_t(count)}; }
+    std::span<const Point> span() const&& = delete;  // it would outlive the polygon
 };
 
 using Polygon2 = ConvexPolygon<glm::dvec2>;

@@ -15,7 +15,8 @@ Polygon2 shadowPolygon(const Triangle& triangle, const glm::dvec3& light, const 
     // V, w) with w = H - h.
     const glm::dvec2 lightUv = receiver.uv(light);
     ConvexPolygon<glm::dvec3> homogeneous;
-    for (const glm::dvec3& v : clip(Polygon3(triangle), heightOf).span()) {
+    const Polygon3 above = clip(Polygon3(triangle), heightOf);
+    for (const glm::dvec3& v : above.span()) {
         const double h = heightOf(v);
         homogeneous.push({receiver.uv(v) * lightHeight - lightUv * h, lightHeight - h});
     }
