@@ -1,0 +1,42 @@
+// make_assets OUTPUT_FOLDER: makes every scene of assets/, the same bytes each time.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "assets/make/scenes.h"
+#include "common/error.h"
+
+namespace {
+
+using namespace penumbra::assets;
+
+struct SceneMaker {
+    const char* file;
+    GlbWriter (*make)();
+};
+
+constexpr SceneMaker makers[] = {
+    {"heckbert_herf.glb", makeHeckbertHerf},
+    {"contact.glb", makeContact},
+    {"spheres.glb", makeSpheres},
+    {"fence.glb", makeFence},
+    {"knot.glb", makeKnot},
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: make_assets OUTPUT_FOLDER (for instance: make_assets assets)\n");
+        return penumbra::exitUsage;
+    }
+    try {
+        std::filesystem::create_directories(argv[1]);
+        for (const SceneMaker& maker : makers)
+            maker.make().write(std::filesystem::path(argv[1]) / maker.file);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "make_assets: %s\n", error.what());
+        return penumbra::exitFailed;
+    }
+    return penumbra::exitFine;
+}
