@@ -55,8 +55,12 @@ def cppFiles(*suffixes):
 
 
 def formatting():
-    files = cppFiles(".cpp", ".h")
-    return judge("clang-format: run clang-format -i on these", run(["clang-format", "--dry-run", "-Werror", *files]))
+    ran = run(["clang-format", "--dry-run", *cppFiles(".cpp", ".h")])
+    wrong = sorted({line.split(":")[0] for line in ran.stderr.splitlines() if "[-Wclang-format-violations]" in line})
+    if ran.returncode != 0 or wrong:
+        print(f"FAILED format: clang-format -i {' '.join(wrong) or ran.stderr}")
+        return 0, 1
+    return 1, 0
 
 
 def lint():

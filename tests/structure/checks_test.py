@@ -1,0 +1,98 @@
+"""The steps of ./test: each says what is wrong, and none passes when its tool fails."""
+import contextlib
+import io
+import unittest
+from unittest import mock
+
+from temporary_tree import TreeTest
+
+import build
+import checks
+import test_command
+import test_page
+import tidy
+
+
+class FormattingTest(TreeTest):
+    def outcome(self):
+        said = io.StringIO()
+        with mock.patch.object(checks, "ROOT", self.root), contextlib.redirect_stdout(said):
+            return checks.formatting(), said.getvalue()
+
+    def testNamesTheFileThatIsNotFormatted(self):
+        self.write(".clang-format", "BasedOnStyle: Google\n")
+        self.write("common/a.cpp", "int a;\n")
+        self.assertEqual(self.outcome(), ((1, 0), ""))
+        self.write("common/b.h", "int   b;\n")
+        result, said = self.outcome()
+        self.assertEqual(result, (0, 1))
+        self.assertIn("clang-format -i common/b.h\n", said)
+
+
+class LintTest(TreeTest):
+    def setUp(self):
+        super().setUp()
+        self.write(".clang-tidy", "Checks: '-*,modernize-use-nullptr'\nWarningsAsErrors: '*'\nHeaderFilterRegex: '.*'\n")
+        self.write("common/a.h", "inline int* a() { return nullptr; }\n")
+        self.write("common/a.cpp", '#include "common/a.h"\nint main() { return a() != nullptr; }\n')
+        file = self.root / "common/a.cpp"
+        self.write("build/release/compile_commands.json",
+                   f'[{{"directory": "{self.root}", "file": "{file}", "command": "c++ -I{self.root} -c {file}"}}]')
+
+    def complaint(self):
+        return tidy.Linter(self.root, self.root / "build/release").complaint("common/a.cpp")
+
+    def testComplainsUntilItIsMendedAndRemembersWhatPassed(self):
+        self.assertEqual(self.complaint(), "")
+        with mock.patch.object(tidy.subprocess, "run", wraps=tidy.subprocess.run) as ran:
+            self.assertEqual(self.complaint(), "")
+            self.assertEqual(ran.call_count, 1, "only the version is asked for: the file passed before")
+        self.write("common/a.h", "inline int* a() { return 0; }\n")
+        self.assertIn("modernize-use-nullptr", self.complaint())
+        self.assertIn("modernize-use-nullptr", self.complaint(), "a complaint is not remembered as a pass")
+
+
+class TotalsTest(unittest.TestCase):
+    def perform(self, *steps):
+        with contextlib.redirect_stdout(io.StringIO()):
+            return test_command.perform([(step.__name__, step) for step in steps])
+
+    def testAFailingStepDoesNotStopTheOthers(self):
+        def good():
+            return 3, 0
+
+        def broken():
+            raise build.BuildError("no compiler")
+
+        self.assertEqual(self.perform(good, broken, good), (6, 1))
+
+    def testAProcessThatFailsIsAFailure(self):
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            self.assertEqual(checks.judge("x", checks.run(["sh", "-c", "echo why >&2; exit 3"])), (0, 1))
+        self.assertIn("why\nFAILED x (status 3)", said.getvalue())
+        self.assertEqual(checks.judge("x", checks.run(["true"])), (1, 0))
+
+
+class PageTest(TreeTest):
+    def testShowsFailuresFirstWithTheirWorstPixels(self):
+        common = '"test": "T.t", "pixels": 4, "excluded": 1'
+        self.write("out/test/03_a/good/record.json", '{"name": "03_a/good", "passed": true, ' + common + ', "bounds": '
+                   '[{"name": "rmse", "measured": 0.1, "bound": 0.2, "kept": true}], "worst": []}')
+        self.write("out/test/03_a/bad/record.json", '{"name": "03_a/bad", "passed": false, ' + common + ', "bounds": '
+                   '[{"name": "max_abs", "measured": 0.5, "bound": 0.2, "kept": false}], '
+                   '"worst": [{"x": 7, "y": 9, "actual": null, "exact": 0.25}]}')
+        self.write("out/test/03_a/bad/actual.png", "")
+        self.write("out/test/03_b/record.json", '{"name": "03_b", "passed": false, "test": "T.u", "problem": "<sizes>"}')
+        with mock.patch.object(test_page, "FOLDER", self.root / "out/test"), contextlib.redirect_stdout(io.StringIO()):
+            test_page.write()
+        page = self.read("out/test/index.html")
+        self.assertIn("3 comparisons with exact answers, 2 failed", page)
+        self.assertIn('<img src="03_a/bad/actual.png"', page)
+        self.assertIn("<td>7, 9</td><td>NaN</td><td>0.25</td>", page)
+        self.assertIn("<span class=broken>max_abs 0.5 of 0.2</span>", page)
+        self.assertIn("&lt;sizes&gt;", page)
+        self.assertLess(page.index("03_a/bad</h3>"), page.index("03_a/good"))
+
+
+if __name__ == "__main__":
+    unittest.main()
