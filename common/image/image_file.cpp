@@ -59,6 +59,8 @@ std::string encodeExr(const FloatImage& image, const std::map<std::string, std::
                       const std::filesystem::path& file) {
     OIIO::ImageSpec spec = specOf(image, OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
+    // Without this OpenImageIO writes the time of day, and no two runs would give the same file.
+    spec.attribute("DateTime", "");
     for (const auto& [name, value] : metadata) spec.attribute(name, value);
     return encode("memory.exr", spec, OIIO::TypeDesc::FLOAT, image.values.data(), file);
 }

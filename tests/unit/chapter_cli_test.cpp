@@ -1,0 +1,82 @@
+// What every chapter program must do, whatever it teaches.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "common/image/file_write.h"
+#include "tests/unit/run_program.h"
+#include "tests/unit/triangle_scene.h"
+
+namespace penumbra {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The real programs, with what every one of them must do.
+class RealChapter : public testing::TestWithParam<std::string> {
+ protected:
+    RealChapter() { writeFile(folder / "triangle.gltf", triangleFile); }
+    ProgramResult run(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), {"--scene", "triangle.gltf"});
+        return runProgram({.program = programFolder() / GetParam(),
+                           .arguments = std::move(arguments),
+                           .folder = folder.path()});
+    }
+    TemporaryFolder folder;
+};
+
+TEST_P(RealChapter, RendersEveryOneOfItsViews) {
+    ASSERT_TRUE(std::filesystem::exists(programFolder() / GetParam())) << "build it first";
+    const std::string refusal = run({"--view", "?"}).err;
+    const std::size_t begin = refusal.find("one of ") + 7;
+    std::istringstream names(refusal.substr(begin, refusal.find('\n') - begin));
+    for (std::string view; names >> view;) {
+        if (view.back() == ',') view.pop_back();
+        const ProgramResult result =
+            run({"--size", "48x32", "--view", view, "--compare-truth", "--output", view + ".exr", "--quiet"});
+        EXPECT_EQ(result.status, 0) << view << ": " << result.err;
+        EXPECT_EQ(result.out + result.err, "") << view;
+        EXPECT_TRUE(std::filesystem::exists(folder / (view + ".exr"))) << view;
+    }
+}
+
+TEST_P(RealChapter, RendersTheSameFileTwice) {
+    for (const char* extension : {".png", ".exr"}) {
+        std::vector<std::string> pictures;
+        for (const char* name : {"a", "b"}) {
+            ASSERT_EQ(run({"--size", "48x32", "--output", std::string(name) + extension, "--quiet"}).status,
+                      0);
+            pictures.push_back(bytesOf(folder / (std::string(name) + extension)));
+        }
+        EXPECT_FALSE(pictures[0].empty());
+        EXPECT_TRUE(pictures[0] == pictures[1]) << extension;
+    }
+}
+
+TEST_P(RealChapter, RendersOnePixelAndOneLine) {
+    for (const char* size : {"1x1", "1x777"}) {
+        const ProgramResult result = run({"--size", size, "--output", "a.png"});
+        EXPECT_EQ(result.status, 0) << size << ": " << result.err;
+    }
+}
+
+TEST_P(RealChapter, RefusesEveryParameterOutsideItsRange) {
+    for (const Json& parameter : Json::parse(run({"--list-parameters"}).out)) {
+        const std::string name = parameter["name"];
+        EXPECT_FALSE(parameter["help"].get<std::string>().empty()) << name;
+        for (const char* bad : {"nan", "-1e30", "no-such-value"}) {
+            const ProgramResult result = run({"--" + name, bad});
+            EXPECT_EQ(result.status, 2) << name << " " << bad;
+            EXPECT_EQ(result.errorLines(), 1) << result.err;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Chapters, RealChapter,
+                         testing::Values("00_ray_traced_truth", "01_depth_from_light", "02_shadow_test",
+                                         "03_polygon_offset"),
+                         [](const auto& chapter) { return "C" + chapter.param; });
+
+}  // namespace
+}  // namespace penumbra
