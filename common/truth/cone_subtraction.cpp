@@ -161,8 +161,8 @@ LightPyramid lightPyramid(const glm::dvec3& x, const glm::dvec3& n, std::span<co
 bool outside(const LightPyramid& pyramid, const Aabb& box) {
     const glm::dvec3 centre = box.centre() - pyramid.x;
     const glm::dvec3 half = 0.5 * box.size();
-    const double slack =
-        1.0 + 16.0 * epsilon;  // outward, so that rounding never culls what the exact test would keep
+    // Outward, so that rounding never culls what the exact test would keep.
+    const double slack = 1.0 + 16.0 * epsilon;
     const double slackLength = 16.0 * epsilon * (sumOfMagnitudes(centre) + sumOfMagnitudes(pyramid.x));
     const auto nearest = [&](const glm::dvec3& normal) {
         const glm::dvec3 size = glm::abs(normal);
@@ -193,8 +193,8 @@ double visibleFormFactor(const LightPyramid& pyramid, std::span<const Triangle> 
         work.pieces.pop_back();
         sum += subtract(pyramid, piece, work);
     }
-    return std::min(
-        sum, whole);  // an occluder that hides next to nothing: the rounding of the pieces must not add light
+    // An occluder that hides next to nothing: the rounding of the pieces must not add light.
+    return std::min(sum, whole);
 }
 
 }  // namespace penumbra

@@ -64,8 +64,8 @@ double lambertFormFactor(const glm::dvec3& n, const Polygon3& polygon) {
         const glm::dvec3 b = polygon[at];
         const glm::dvec3 beta = b - c;
         const glm::dvec3 edge = b - a;
-        const glm::dvec3 axb =
-            glm::cross(a, edge);  // not a x b: it loses the digits of a short edge far away
+        // Not cross(a, b), which loses the digits of a short edge far away; and exactly negated from b to a.
+        const glm::dvec3 axb = 0.5 * glm::cross(a + b, edge);
         const double squared = glm::dot(axb, axb);
         const double adotb = glm::dot(a, b);
         const double excess = glm::dot(c, alpha + beta) + glm::dot(alpha, beta);  // a.b - |c|^2

@@ -46,6 +46,27 @@ TEST(ConeSubtraction, TrianglesWithoutSolidAngleChangeNothing) {
     }
 }
 
+TEST(ConeSubtraction, ASurfaceDoesNotShadowThePointsComputedOnIt) {
+    std::mt19937 random(10);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const auto point = [&] { return dvec3(uniform(random), uniform(random), uniform(random)); };
+    for (int trial = 0; trial < 20000; ++trial) {
+        const dvec3 far = trial % 2 == 0 ? dvec3(0.0) : 1000.0 * point();
+        Triangle surface = {far + point(), far + point(), far + point()};
+        dvec3 n = glm::cross(surface[1] - surface[0], surface[2] - surface[0]);
+        if (glm::length(n) < 0.1) continue;
+        n = glm::normalize(n);
+        // Half of these points are below the surface by a rounding error; some are beside it, in its plane.
+        const double s = 0.4 + 0.5 * uniform(random), t = 0.3 + 0.5 * uniform(random);
+        const dvec3 x = surface[0] + s * (surface[1] - surface[0]) + t * (surface[2] - surface[0]);
+        const dvec3 u = glm::normalize(surface[1] - surface[0]), v = glm::cross(n, u), centre = x + 2.0 * n;
+        const dvec3 polygon[] = {centre - u - v, centre - u + v, centre + u + v, centre + u - v};
+        EXPECT_EQ(visibleFormFactor(x, n, polygon, {&surface, 1}), formFactor(x, n, polygon))
+            << "trial " << trial;
+        EXPECT_GT(formFactor(x, n, polygon), 0.1);
+    }
+}
+
 TEST(ConeSubtraction, TrianglesBehindOrInTheLightsPlaneChangeNothing) {
     for (const double z : {2.0, 2.0 + 1e-12, 2.5, 100.0}) {
         const Triangle t = {dvec3(-5, -5, z), dvec3(5, -5, z), dvec3(0, 5, z)};

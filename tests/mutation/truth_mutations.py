@@ -1,0 +1,141 @@
+"""Breaks the exact answers on purpose, one break at a time, and demands that their unit tests notice.
+
+A test that cannot fail proves nothing. Each mutation below is a bug that somebody could make; if the program named with
+it still passes, the test is too weak. Slow (a minute or two): part of the full ./test, not of --fast. One alone:
+    python3 tests/mutation/truth_mutations.py TruthMutations.testNoHorizonClip
+"""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COMPILER = os.environ.get("CXX", "c++")
+FLAGS = ["-std=c++20", "-O1", "-ffp-contract=off", f'-DPENUMBRA_SOURCE_DIR="{ROOT}"']
+SOURCES = ["common/math/polygon.cpp"] + [
+    f"common/truth/{name}.cpp"
+    for name in ("lambert_polygon", "cone_subtraction", "polygon_light", "shadow_polygon", "edge_coverage",
+                 "triangle_bvh", "exact_scene")]
+LIBRARIES = ["-lgtest", "-lgtest_main", "-ltbb", "-lfmt", "-pthread"]
+
+# name: (file, unit program that must fail, [(old, new), ...])
+MUTATIONS = {
+    "NoHorizonClip": (
+        "common/truth/cone_subtraction.cpp", "polygon_light",
+        [("clip(light, [&](const glm::dvec3& p) { return glm::dot(n, p); })", "light")]),
+    "OccluderNotCutAtTheLight": (
+        "common/truth/cone_subtraction.cpp", "cone_subtraction", [("plane < 4", "plane < 3")]),
+    "TrianglesBehindTheLightShadow": (
+        "common/truth/cone_subtraction.cpp", "cone_subtraction",
+        [("<= pyramid.rounding) return true;", "<= -1e300) return true;"),
+         ("if (!isOutside(cone, pyramid.light, 3, tolerance))", "if (true)"),
+         ("plane < 4", "plane < 3")]),
+    "SurfacesShadowThemselves": (
+        "common/truth/cone_subtraction.cpp", "cone_subtraction",
+        [("if (std::abs(volume) <= tolerance) return;", "")]),
+    "OneWindingOnly": (
+        "common/truth/cone_subtraction.cpp", "cone_subtraction", [("volume > 0.0 ? 1.0 : -1.0", "1.0")]),
+    "RoundingAddsLight": (
+        "common/truth/cone_subtraction.cpp", "cone_subtraction", [("std::min(sum, whole)", "sum")]),
+    "FullPiecesAreNotHalved": (
+        "common/truth/cone_subtraction.cpp", "polygon_light", [("Polygon3::capacity / 2) halve(", "1000) halve(")]),
+    "BothSidesEmit": (
+        "common/truth/cone_subtraction.cpp", "polygon_light", 
+        [("if (pyramid.height <= pyramid.rounding) return", "if (false) return")]),
+    "PlainCrossProduct": (
+        "common/truth/lambert_polygon.cpp", "polygon_light", [("0.5 * glm::cross(a + b, edge)", "glm::cross(a, b)")]),
+    "NothingTakenOut": ("common/truth/lambert_polygon.cpp", "polygon_light", [("k = 1.0 / cc", "k = 0.0 * cc")]),
+    "ArcCosine": (
+        "common/truth/lambert_polygon.cpp", "polygon_light",
+        [("adotb > 0.0 && squared <=", "false && squared <="),
+         ("std::atan2(l, adotb)", "std::acos(adotb / std::sqrt(glm::dot(a, a) * glm::dot(b, b)))")]),
+    "CutFromTheFirstCorner": (
+        "common/math/polygon.h", "polygon",
+        [(": crossing(*current, side, *previous, previousSide)",
+          ": crossing(*previous, previousSide, *current, side)")]),
+    "CornersOnTheLineAreLost": (
+        "common/math/polygon.h", "polygon", [("if (side <= 0.0) outside", "if (side < 0.0) outside")]),
+    "ShadowOfWhatIsBelowThePlane": (
+        "common/truth/shadow_polygon.cpp", "shadow_polygon",
+        [("clip(Polygon3(triangle), heightOf)", "Polygon3(triangle)")]),
+    "NegativeProjection": (
+        "common/truth/shadow_polygon.cpp", "shadow_polygon",
+        [("lightHeight - h}", "std::abs(lightHeight - h)}")]),
+    "MisAreaOfAxisAlignedEdges": (
+        "common/truth/shadow_polygon.cpp", "shadow_polygon", [(" + s * s / (12.0 * c)", "")]),
+    "BoxWithoutCorners": ("common/truth/edge_coverage.cpp", "edge_coverage", [("2.0 * a * b", "a * b")]),
+    "HierarchyForgetsCorners": (
+        "common/truth/triangle_bvh.cpp", "exact_scene",
+        [("for (const glm::dvec3& corner : entries_[i].corners) bounds.extend(corner);",
+          "bounds.extend(entries_[i].corners[0]);")]),
+    "OrderOfTheHierarchy": (
+        "common/truth/exact_scene.cpp", "exact_scene", [("return a->triangle < b->triangle;", "return a < b;")]),
+    "LeaksAtVertices": (
+        "common/truth/exact_scene.cpp", "exact_scene",
+        [("q.x * r.y - q.y * r.x", "glm::dot(along_, glm::cross(b + c, c - b))"),
+         ("r.x * p.y - r.y * p.x", "glm::dot(along_, glm::cross(c + a, a - c))"),
+         ("p.x * q.y - p.y * q.x", "glm::dot(along_, glm::cross(a + b, b - a))")]),
+    "TouchingCountsAsBlocking": (
+        "common/truth/exact_scene.cpp", "exact_scene",
+        [("end < 0.0) || (start < 0.0 && end > 0.0)", "end <= 0.0) || (start < 0.0 && end >= 0.0)")]),
+}
+
+
+def compile_(source, output, include):
+    subprocess.run([COMPILER, *FLAGS, f"-I{include}", f"-I{ROOT}", "-c", source, "-o", output], check=True)
+
+
+class TruthMutations(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.objects = {}
+
+    def object(self, source):
+        """The unbroken object of `source`, compiled once."""
+        if source not in self.objects:
+            self.objects[source] = self.folder / (source.replace("/", "_") + ".o")
+            compile_(ROOT / source, self.objects[source], ROOT)
+        return self.objects[source]
+
+    def passes(self, program, broken=None):
+        """Does unit program `program` pass, with the files in folder `broken` in place of the real ones?"""
+        test = f"tests/unit/{program}_test.cpp"
+        objects = []
+        for source in [test, *SOURCES]:
+            changed = broken and ((broken / source).exists() or (source == test and any(broken.rglob("*.h"))))
+            if changed:
+                object_ = broken / (pathlib.Path(source).name + ".o")
+                compile_(broken / source if (broken / source).exists() else ROOT / source, object_, broken)
+            else:
+                object_ = self.object(source)
+            objects.append(object_)
+        binary = (broken or self.folder) / program
+        subprocess.run([COMPILER, *objects, *LIBRARIES, "-o", binary], check=True)
+        return subprocess.run([binary, "--gtest_fail_fast"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              timeout=120).returncode == 0
+
+    def check(self, name):
+        file, program, replacements = MUTATIONS[name]
+        text = (ROOT / file).read_text()
+        for old, new in replacements:
+            self.assertTrue(old in text, f"{name}: {file} no longer contains '{old}'; adapt the mutation")
+            text = text.replace(old, new)
+        broken = self.folder / name  # one folder, so that its headers come before the real ones
+        (broken / file).parent.mkdir(parents=True)
+        (broken / file).write_text(text)
+        self.assertFalse(self.passes(program, broken), f"{name}: unit_{program} does not notice")
+
+    def testUnbroken(self):
+        for program in sorted({program for _, program, _ in MUTATIONS.values()}):
+            self.assertTrue(self.passes(program), f"unit_{program} fails without any mutation")
+
+
+for name_ in MUTATIONS:
+    setattr(TruthMutations, f"test{name_}", lambda self, name=name_: self.check(name))
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
