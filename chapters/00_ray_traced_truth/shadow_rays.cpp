@@ -10,7 +10,8 @@ namespace {
 // [begin:rounded-start]
 ShadowRay shadowRay(const Hit& hit, const Light& light, const LightSample& sample,
                     const ShadowRayOptions& options) {
-    ShadowRay ray{hit.position, hit.triangle, light.type == LightType::directional, sample.target};
+    ShadowRay ray{hit.position, hit.triangle, light.type == LightType::directional, hit.geometricNormal,
+                  sample.target};
     if (options.start == "rounded") {
         ray.origin = glm::dvec3(glm::vec3(hit.position));
         ray.triangle = ShadowRay::noTriangle;

@@ -70,7 +70,7 @@ std::uint32_t hashSeed(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 glm::dvec2 owenSobol(std::uint32_t index, std::uint32_t seed) {
     // Shuffling by an Owen scramble of the index keeps each aligned block of 2^k indices together, so
     // prefixes stay nets.
-    const std::uint32_t shuffled = reverseBits(owenScramble(reverseBits(index), mix(seed)));
+    const std::uint32_t shuffled = owenScramble(index, mix(seed));
     const std::uint32_t x = owenScramble(reverseBits(shuffled), mix(seed ^ 0x68bc21ebu));
     const std::uint32_t y = owenScramble(sobolSecond(shuffled), mix(seed ^ 0x02e5be93u));
     return glm::dvec2(x, y) * 0x1p-32;

@@ -1,13 +1,12 @@
 // The reference ray tracer: Embree (3 or 4) behind three questions. Checked against the closed forms in
 // tests/unit.
 //
-// Self-intersection is handled without an epsilon to tune. Embree sees float rays; its answers are only
-// candidates. A shadow ray starts a little BEHIND its surface point (64 float ulps of the scene: more than
-// all float rounding together), so that whatever touches the point is found, and every candidate is decided
-// again in double from the exact segment and the exact triangle: the triangle the point lies on never counts,
-// and a triangle counts only if its plane has the two ends on different sides, by more than the rounding
-// bound of the double computation itself. With an offset along the normal instead, one would see light leak
-// in where a wall stands on the ground; with an offset too small, acne.
+// Self-intersection is handled without an epsilon to tune. Embree sees float rays; its answers are only candidates. A
+// shadow ray is begun behind its surface point and lifted off the surface, both by a few times what float rounding can do
+// to it (floatRay in ray_tracer.cpp), so that whatever touches the point is found; and every candidate is decided again in
+// double from the exact segment and the exact triangle: the triangle the point lies on never counts, and another counts
+// only if its plane has the two ends on different sides, by more than the rounding bound of the double computation
+// itself. With an offset alone, one would see light leak in where a wall stands on the ground, or acne.
 #pragma once
 
 #include <cstdint>
@@ -44,6 +43,7 @@ struct ShadowRay {
     std::uint32_t triangle =
         noTriangle;  ///< the triangle the origin lies on, which never blocks; noTriangle: in free space
     bool towardsInfinity = false;
+    glm::dvec3 normal{0.0};  ///< unit normal of that triangle, either side; 0: in free space
     glm::dvec3 target{0.0};  ///< a point, or a direction if towardsInfinity
 };
 
