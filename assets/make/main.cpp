@@ -20,6 +20,7 @@ constexpr SceneMaker makers[] = {
     {"contact.glb", makeContact},
     {"spheres.glb", makeSpheres},
     {"fence.glb", makeFence},
+    {"courtyard.glb", makeCourtyard},
     {"knot.glb", makeKnot},
 };
 
