@@ -123,9 +123,12 @@ void forEachElement(Document& document, const tinygltf::Accessor& accessor, std:
                        declared == 0 ? elementBytes : declared, elementBytes, who);
         spend(document, elements.count, who);
         for (std::size_t i = 0; i < elements.count; ++i) put(i, elements.at(i));
-    } else if (accessor.count > maxZeroElements) {
-        document.fail(fmt::format("{}: {} elements without bytes; at most {} are supported", who,
-                                  accessor.count, maxZeroElements));
+    } else {
+        if (accessor.count > maxZeroElements) {
+            document.fail(fmt::format("{}: {} elements without bytes; at most {} are supported", who,
+                                      accessor.count, maxZeroElements));
+        }
+        spend(document, accessor.count, who);
     }
     if (!accessor.sparse.isSparse) return;
     const auto& sparse = accessor.sparse;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -21,11 +22,9 @@ constexpr std::array supportedExtensions = {
     std::string_view("KHR_texture_transform"), std::string_view("KHR_mesh_quantization")};
 
 /// Never used here, and the usual places for large or deep data.
-constexpr std::array prunedKeys = {std::string_view("extras"), std::string_view("animations"),
-                                   std::string_view("skins"),  std::string_view("samplers"),
-                                   std::string_view("min"),    std::string_view("max")};
+constexpr std::array unusedKeys = {"extras", "animations", "skins", "samplers", "min", "max"};
 
-enum class Kind { index, number, text, object, array };
+enum class Kind { index, size, number, text, object, array };
 
 /// glTF uses each of these keys with one type only. tinygltf takes an optional property of the wrong type as
 /// absent, and the picture would be wrong without a word.
@@ -33,9 +32,9 @@ const std::map<std::string, Kind>& keyKinds() {
     static const std::map<std::string, Kind> kinds = [] {
         const std::pair<Kind, const char*> rules[] = {
             {Kind::index,
-             "scene mesh camera skin material mode index texCoord buffer bufferView byteOffset byteLength "
-             "byteStride "
-             "componentType count source light"},
+             "scene mesh camera skin material mode index texCoord buffer bufferView componentType source "
+             "light"},
+            {Kind::size, "byteOffset byteLength byteStride count"},
             {Kind::number,
              "intensity range innerConeAngle outerConeAngle yfov znear zfar xmag ymag metallicFactor "
              "roughnessFactor "
@@ -61,7 +60,10 @@ const std::map<std::string, Kind>& keyKinds() {
 
 bool isKind(const Json& value, Kind kind) {
     switch (kind) {
-        case Kind::index:
+        case Kind::index:  // tinygltf would wrap it round to an int
+            return value.is_number_unsigned() &&
+                   value.get<std::uint64_t>() <= std::uint64_t(std::numeric_limits<int>::max());
+        case Kind::size:
             return value.is_number_unsigned();
         case Kind::number:
             return value.is_number();
@@ -76,7 +78,11 @@ bool isKind(const Json& value, Kind kind) {
 }
 
 const char* kindName(Kind kind) {
-    constexpr std::array names = {"a whole number, 0 or more", "a number", "a string", "an object",
+    constexpr std::array names = {"an index, 0 to 2147483647",
+                                  "a whole number, 0 or more",
+                                  "a number",
+                                  "a string",
+                                  "an object",
                                   "an array"};
     return names[std::size_t(kind)];
 }
@@ -84,6 +90,10 @@ const char* kindName(Kind kind) {
 bool isSupported(const std::string& extension) {
     return std::find(supportedExtensions.begin(), supportedExtensions.end(), extension) !=
            supportedExtensions.end();
+}
+
+void dropUnusedKeys(Json& object) {
+    for (const char* key : unusedKeys) object.erase(key);
 }
 
 /// A vendor's extension may use any key for anything.
@@ -96,9 +106,12 @@ void dropUnsupportedExtensions(Json& object) {
 }
 
 /// Recursion is bounded by maxJsonDepth.
-void checkTypes(Json& value, const Document& document) {
+void pruneAndCheckTypes(Json& value, const Document& document) {
     if (!value.is_structured()) return;
-    if (value.is_object()) dropUnsupportedExtensions(value);
+    if (value.is_object()) {
+        dropUnusedKeys(value);
+        dropUnsupportedExtensions(value);
+    }
     for (auto it = value.begin(); it != value.end(); ++it) {
         if (value.is_object()) {
             const auto rule = keyKinds().find(it.key());
@@ -107,30 +120,41 @@ void checkTypes(Json& value, const Document& document) {
                                           kindName(rule->second)));
             }
         }
-        checkTypes(*it, document);
+        pruneAndCheckTypes(*it, document);
     }
 }
 
-Json parse(Bytes bytes, Document& document) {
+/// Counts nesting and values in the text itself, before any memory is spent on them. (The parser's callback
+/// would do, but it searches the whole parent at the end of every child: quadratic in the number of nodes.)
+void checkNesting(Bytes json, const Document& document) {
+    int depth = 0;
     std::size_t values = 0;
-    const auto keep = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    bool inString = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = char(json[i]);
+        if (inString) {
+            if (c == '\\') ++i;
+            if (c == '"') inString = false;
+            continue;
+        }
+        if (c == '"') inString = true;
+        if (c == '{' || c == '[') ++depth;
+        if (c == '}' || c == ']') --depth;
+        if (c == '{' || c == '[' || c == ',') ++values;
         if (depth > maxJsonDepth) {
             document.fail(
                 fmt::format("the JSON is nested more than {} deep, which no valid glTF is", maxJsonDepth));
         }
-        if (event == Json::parse_event_t::key) {
-            const auto& key = parsed.get_ref<const std::string&>();
-            if (depth == 1 && key == "animations")
-                document.note("animations are ignored: the rest pose is shown");
-            return std::find(prunedKeys.begin(), prunedKeys.end(), key) == prunedKeys.end();
-        }
-        if (++values > maxJsonValues) {
+        if (values > maxJsonValues) {
             document.fail(fmt::format("more than {} JSON values: split the scene", maxJsonValues));
         }
-        return true;
-    };
+    }
+}
+
+Json parse(Bytes json, const Document& document) {
+    checkNesting(json, document);
     try {
-        return Json::parse(bytes.begin(), bytes.end(), keep);
+        return Json::parse(json.begin(), json.end());
     } catch (const Json::exception& exception) {
         document.fail(fmt::format("not a glTF file: {}", exception.what()));
     }
@@ -179,7 +203,8 @@ PrunedJson pruneJson(Bytes json, Document& document) {
     if (!root.is_object()) document.fail("not a glTF file: the JSON is not an object");
     checkExtensions(root,
                     document);  // first: a file that needs an extension may break the rules of plain glTF
-    checkTypes(root, document);
+    if (root.contains("animations")) document.note("animations are ignored: the rest pose is shown");
+    pruneAndCheckTypes(root, document);
     checkSizes(root, document);
     PrunedJson pruned;
     for (const Json& buffer : takeObjects(root, "buffers", document)) {
