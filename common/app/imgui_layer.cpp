@@ -7,10 +7,11 @@
 #include <cmath>
 
 #include "common/app/window_input.h"
+#include "common/gl/gl_object.h"
 
 namespace penumbra {
 
-ImGuiLayer::ImGuiLayer(const Context& context) {
+ImGuiLayer::ImGuiLayer(const Context& context) : es_(context.capabilities().api == Api::es) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;  // leaves no file where the program happens to be started
@@ -21,7 +22,8 @@ ImGuiLayer::ImGuiLayer(const Context& context) {
     ImGui::StyleColorsDark();
     ImGui::GetStyle().ScaleAllSizes(scale);
     ImGui_ImplGlfw_InitForOpenGL(context.window(), true);
-    ImGui_ImplOpenGL3_Init(context.capabilities().api == Api::es ? "#version 300 es" : "#version 330 core");
+    io.KeyMap[ImGuiKey_Tab] = -1;  // Tab chooses a parameter; Dear ImGui would start to type into one
+    ImGui_ImplOpenGL3_Init(es_ ? "#version 300 es" : "#version 330 core");
 }
 
 ImGuiLayer::~ImGuiLayer() {
@@ -39,6 +41,7 @@ void ImGuiLayer::begin() {
 void ImGuiLayer::draw() {
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    if (es_) discardGlErrors();  // it asks for the polygon mode, which ES does not have
 }
 
 }  // namespace penumbra

@@ -16,6 +16,9 @@ class ImGuiLayer {
     void begin();
     /// Draws it into the framebuffer that is bound.
     void draw();
+
+ private:
+    bool es_;
 };
 
 }  // namespace penumbra

@@ -121,6 +121,7 @@ class WindowLoop {
             coarseDivisor_ = std::min(2 * coarseDivisor_, coarsest);
         if (seconds < 0.2 * dragSeconds && divisor_ == coarseDivisor_)
             coarseDivisor_ = std::max(coarseDivisor_ / 2, 1);
+        state_.work = session_.work();
         state_.frameMs.push_back(1e3 * seconds);
         if (state_.frameMs.size() > framesRemembered) state_.frameMs.pop_front();
     }

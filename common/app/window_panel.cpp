@@ -100,14 +100,14 @@ bool viewRow(const ChapterSession& session, WindowState& state) {
     return changed;
 }
 
-void timesAndCounters(const ChapterSession& session, WindowState& state) {
+void timesAndCounters(WindowState& state) {
     std::vector<double> sorted(state.frameMs.begin(), state.frameMs.end());
     std::sort(sorted.begin(), sorted.end());
     if (!sorted.empty())
         ImGui::Text("frame %.2f ms, median %.2f ms", state.frameMs.back(), sorted[sorted.size() / 2]);
     ImGui::Checkbox("redraw always", &state.redrawAlways);
     tooltip("Otherwise a frame is drawn only when something has changed.");
-    for (const auto& [name, count] : session.work())
+    for (const auto& [name, count] : state.work)
         ImGui::Text("%s %lld", name.c_str(), static_cast<long long>(count));
 }
 
@@ -156,7 +156,7 @@ bool drawPanel(const ChapterSession& session, WindowState& state) {
         ImGui::Separator();
         changed |= parameterRows(state);
         ImGui::Separator();
-        timesAndCounters(session, state);
+        timesAndCounters(state);
         if (!state.note.empty()) ImGui::TextWrapped("%s", state.note.c_str());
         ImGui::End();
     }

@@ -20,6 +20,7 @@ struct WindowState {
     std::string error;           ///< of the latest frame and of shaders
     std::string note;            ///< about the latest screenshot
     std::deque<double> frameMs;  ///< latest last
+    WorkCounters work;           ///< of the picture on screen
 };
 
 /// Describes the panel to Dear ImGui. True if parameters or view were changed, so that the picture must be

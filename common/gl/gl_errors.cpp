@@ -66,12 +66,16 @@ void listenForGlErrors() {
     glDebugMessageCallback(onDebugMessage, nullptr);
 }
 
+void discardGlErrors() {
+    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {  // a lost context reports errors for ever
+    }
+    pendingMessage[0] = '\0';
+}
+
 void checkGlErrors(const char* where) {
     const GLenum first = glGetError();
-    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
-    }
     const std::string message = pendingMessage;
-    pendingMessage[0] = '\0';
+    discardGlErrors();
     if (first == GL_NO_ERROR && message.empty()) return;
     throw Error(fmt::format("OpenGL error {}: {}", where, message.empty() ? errorName(first) : message));
 }

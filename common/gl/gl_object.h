@@ -60,5 +60,7 @@ using GlRenderbuffer = GlObject<RenderbufferTraits>;
 void requireCompleteFramebuffer(const char* what);
 /// Throws Error with the pending GL error or the last KHR_debug message of type error, if any.
 void checkGlErrors(const char* where);
+/// Forgets pending errors: after a library that tries calls which OpenGL ES does not have.
+void discardGlErrors();
 
 }  // namespace penumbra
