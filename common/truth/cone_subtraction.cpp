@@ -1,7 +1,9 @@
 #include "common/truth/cone_subtraction.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "common/truth/lambert_polygon.h"
@@ -18,23 +20,24 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 struct Cone {
     std::array<glm::dvec3, 3> inward;
     glm::dvec3 beyond;  ///< the triangle's normal on the side away from x
-    glm::dvec3 corner;  ///< a point of the triangle
+    Triangle triangle;
 
     /// >= 0 on the inner side of plane `i`; the planes of the cone are 0, 1, 2, the triangle's own is 3.
     double side(int i, const glm::dvec3& p) const {
-        return i < 3 ? glm::dot(inward[std::size_t(i)], p) : glm::dot(beyond, p - corner);
+        return i < 3 ? glm::dot(inward[std::size_t(i)], p) : glm::dot(beyond, p - triangle[0]);
     }
 };
 
-/// A visible piece of the light that still has to be cut by the cones from `nextCone` on.
+/// A visible piece of the light that still has to be cut by the listed cones from `next` on.
 struct Piece {
     Polygon3 polygon;
-    std::size_t nextCone = 0;
+    std::size_t next = 0;
 };
 
 /// Reused from call to call, so that the hot loop allocates nothing once it is warm.
 struct Workspace {
     std::vector<Cone> cones;
+    std::vector<std::uint32_t> listed;  ///< indices of cones; every part of the light has its list
     std::vector<Piece> pieces;
 };
 
@@ -97,32 +100,32 @@ void appendCone(const LightPyramid& pyramid, const Triangle& t, std::vector<Cone
     const Cone cone = {
         {sign * edgePlane(t[0], t[1]), sign * edgePlane(t[1], t[2]), sign * edgePlane(t[2], t[0])},
         sign * normal,
-        t[0]};
+        t};
     if (!isOutside(cone, pyramid.light, 3, tolerance)) cones.push_back(cone);
 }
 
 /// A piece that has grown many corners is halved along a diagonal, so that it always has room to be cut.
-void halve(Polygon3& polygon, std::size_t nextCone, std::vector<Piece>& pieces) {
+void halve(Polygon3& polygon, std::size_t next, std::vector<Piece>& pieces) {
     Polygon3 second;
     for (int i = polygon.count / 2; i < polygon.count; ++i) second.push(polygon[i]);
     second.push(polygon[0]);
     polygon.count = polygon.count / 2 + 1;
-    pieces.push_back({second, nextCone});
+    pieces.push_back({second, next});
 }
 
-/// Form factor of the part of `piece` outside its next cones; parts that meet further cones are put on the
-/// stack.
-double subtract(const LightPyramid& pyramid, Piece piece, Workspace& work) {
+/// Form factor of the part of `piece` outside its cones, the listed ones up to `last`; parts that meet
+/// further cones are put on the stack.
+double subtract(const LightPyramid& pyramid, Piece piece, std::size_t last, Workspace& work) {
     Polygon3 inside, outside;
-    for (std::size_t i = piece.nextCone; i < work.cones.size(); ++i) {
-        const Cone& cone = work.cones[i];
+    for (std::size_t i = piece.next; i < last; ++i) {
+        const Cone& cone = work.cones[work.listed[i]];
         if (misses(cone, piece.polygon)) continue;
         double sum = 0.0;
         for (int plane = 0; plane < 4; ++plane) {
             if (piece.polygon.count > Polygon3::capacity / 2) halve(piece.polygon, i, work.pieces);
             const auto side = [&](const glm::dvec3& p) { return cone.side(plane, p); };
             split(piece.polygon, side, inside, outside);
-            if (i + 1 == work.cones.size())
+            if (i + 1 == last)
                 sum += lambertFormFactor(pyramid.normal, outside);
             else if (!outside.empty())
                 work.pieces.push_back({outside, i + 1});
@@ -132,6 +135,61 @@ double subtract(const LightPyramid& pyramid, Piece piece, Workspace& work) {
         return sum;
     }
     return lambertFormFactor(pyramid.normal, piece.polygon);
+}
+
+/// Normal of the plane through x that halves `polygon` across its longest diagonal from the first corner.
+glm::dvec3 planeAcross(const Polygon3& polygon) {
+    glm::dvec3 longest(0.0), middle(0.0);
+    for (const glm::dvec3& p : polygon.span()) {
+        const glm::dvec3 diagonal = p - polygon[0];
+        if (glm::dot(diagonal, diagonal) > glm::dot(longest, longest)) longest = diagonal;
+        middle += p;
+    }
+    return longest - middle * (glm::dot(longest, middle) / glm::dot(middle, middle));
+}
+
+/// Lists, behind the others, those of the cones [first, last) that reach into `part`, which lies on the
+/// positive side of `plane`. False if one of them covers it.
+bool listCones(const Polygon3& part, const glm::dvec3& plane, std::size_t first, std::size_t last,
+               Workspace& work) {
+    for (std::size_t i = first; i < last; ++i) {
+        const Cone& cone = work.cones[work.listed[i]];
+        const Triangle& t = cone.triangle;
+        if (std::max({glm::dot(plane, t[0]), glm::dot(plane, t[1]), glm::dot(plane, t[2])}) <= 0.0) continue;
+        if (misses(cone, part)) continue;
+        if (covers(cone, part)) return false;
+        work.listed.push_back(work.listed[i]);
+    }
+    return true;
+}
+
+/// Form factor of what the listed cones [first, last) leave of `part`. Every piece is tested against every
+/// cone of its part, so a part with many cones is halved first: a thousand leaves then cost a hundred times
+/// ten, not the square.
+double visiblePart(const LightPyramid& pyramid, const Polygon3& part, std::size_t first, std::size_t last,
+                   int halvings, Workspace& work) {
+    constexpr std::size_t few = 12;
+    double sum = 0.0;
+    if (last - first <= few || halvings == 0) {
+        sum += subtract(pyramid, {part, first}, last, work);
+        while (!work.pieces.empty()) {
+            const Piece piece = work.pieces.back();
+            work.pieces.pop_back();
+            sum += subtract(pyramid, piece, last, work);
+        }
+        return sum;
+    }
+    const glm::dvec3 plane = planeAcross(part);
+    Polygon3 halves[2];
+    split(
+        part, [&](const glm::dvec3& p) { return glm::dot(plane, p); }, halves[0], halves[1]);
+    for (int i = 0; i < 2; ++i) {
+        const std::size_t begin = work.listed.size();
+        if (!halves[i].empty() && listCones(halves[i], i == 0 ? plane : -plane, first, last, work))
+            sum += visiblePart(pyramid, halves[i], begin, work.listed.size(), halvings - 1, work);
+        work.listed.resize(begin);
+    }
+    return sum;
 }
 
 }  // namespace
@@ -180,19 +238,15 @@ double unoccludedFormFactor(const LightPyramid& pyramid) {
 double visibleFormFactor(const LightPyramid& pyramid, std::span<const Triangle> occluders) {
     Workspace& work = workspace();
     work.cones.clear();
-    work.pieces.clear();
     for (const Triangle& t : occluders) {
         appendCone(pyramid, {t[0] - pyramid.x, t[1] - pyramid.x, t[2] - pyramid.x}, work.cones);
         if (!work.cones.empty() && covers(work.cones.back(), pyramid.light)) return 0.0;
     }
     const double whole = unoccludedFormFactor(pyramid);
     if (work.cones.empty()) return whole;
-    double sum = subtract(pyramid, {pyramid.light, 0}, work);
-    while (!work.pieces.empty()) {
-        const Piece piece = work.pieces.back();
-        work.pieces.pop_back();
-        sum += subtract(pyramid, piece, work);
-    }
+    work.listed.resize(work.cones.size());
+    std::iota(work.listed.begin(), work.listed.end(), 0u);
+    const double sum = visiblePart(pyramid, pyramid.light, 0, work.listed.size(), 10, work);
     // An occluder that hides next to nothing: the rounding of the pieces must not add light.
     return std::min(sum, whole);
 }

@@ -76,7 +76,7 @@ void manyTriangles(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(visibleFormFactor({0.1, 0.2, 0}, up, light, soup));
     countEvaluations(state, 1);
 }
-BENCHMARK(manyTriangles)->Arg(10)->Arg(100)->Arg(1000);
+BENCHMARK(manyTriangles)->Arg(10)->Arg(100)->Arg(1000)->Arg(10000);
 
 void addTriangle(Scene& scene, const Triangle& t) {
     for (const dvec3& p : t) {

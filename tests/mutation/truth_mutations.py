@@ -40,6 +40,9 @@ MUTATIONS = {
         "common/truth/cone_subtraction.cpp", "cone_subtraction", [("std::min(sum, whole)", "sum")]),
     "FullPiecesAreNotHalved": (
         "common/truth/cone_subtraction.cpp", "polygon_light", [("Polygon3::capacity / 2) halve(", "1000) halve(")]),
+    "HalvesForgetCones": (
+        "common/truth/cone_subtraction.cpp", "cone_subtraction",
+        [("work.listed.resize(begin);", "work.listed.resize(begin), last = std::min(last, first + 40);")]),
     "BothSidesEmit": (
         "common/truth/cone_subtraction.cpp", "polygon_light", 
         [("if (pyramid.height <= pyramid.rounding) return", "if (false) return")]),

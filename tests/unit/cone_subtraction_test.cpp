@@ -257,6 +257,30 @@ TEST(ConeSubtraction, TheOrderOfOccludersDoesNotMatter) {
     }
 }
 
+// Many occluders are dealt with part by part of the light; by how many parts must not matter.
+TEST(ConeSubtraction, APatchworkOfLightsIsTheLight) {
+    std::mt19937 random(15);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    std::vector<Triangle> soup(600);
+    for (Triangle& t : soup) {
+        const dvec3 centre(0.7 * uniform(random), 0.7 * uniform(random), 1 + 0.5 * uniform(random));
+        for (dvec3& p : t) p = centre + 0.05 * dvec3(uniform(random), uniform(random), uniform(random));
+    }
+    const double value = visible(inPenumbra, soup);
+    constexpr int patches = 24;
+    double sum = 0.0;
+    for (int j = 0; j < patches; ++j)
+        for (int i = 0; i < patches; ++i) {
+            const double left = double(i) / patches - 0.5, right = double(i + 1) / patches - 0.5;
+            const double lower = double(j) / patches - 0.5, upper = double(j + 1) / patches - 0.5;
+            const dvec3 patch[] = {{left, lower, 2}, {left, upper, 2}, {right, upper, 2}, {right, lower, 2}};
+            sum += visibleFormFactor(inPenumbra, up, patch, soup);
+        }
+    EXPECT_NEAR(sum, value, 1e-14);
+    EXPECT_GT(value, 0.1 * whole(inPenumbra));
+    EXPECT_LT(value, 0.9 * whole(inPenumbra));
+}
+
 TEST(ConeSubtraction, AtACornerOfAStandingTriangleTheValueIsALimit) {
     // From the corner the triangle is seen edge-on. A hair away it hides more or less, depending on the side.
     const Triangle standing = {dvec3(0, 0, 0), dvec3(0.5, 0.1, 1), dvec3(-0.3, 0.4, 1)};
