@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/error.h"
 #include "common/gl/gl.h"
@@ -38,18 +39,6 @@ ContextRequest contextRequest(const ChapterInfo& info, const Options& options, b
     request.headless = headless;
     request.title = "Penumbra " + info.name;
     return request;
-}
-
-/// The finite values of a picture lie in [first, second].
-std::pair<float, float> finiteRange(const FloatImage& image) {
-    float low = std::numeric_limits<float>::infinity();
-    float high = -low;
-    for (const float v : image.values) {
-        if (!std::isfinite(v)) continue;
-        low = std::min(low, v);
-        high = std::max(high, v);
-    }
-    return low <= high ? std::pair{low, high} : std::pair{0.0f, 1.0f};
 }
 
 }  // namespace
@@ -145,9 +134,20 @@ float ChapterSession::exposureOf(const ViewInfo& view) const {
     return float(exposure(scene_, chosenLight(parameters_)) * stops * view.exposureScale);
 }
 
+std::pair<float, float> ChapterSession::colourRange(const FloatImage& picture) {
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    for (const float v : picture.values) {
+        if (!std::isfinite(v)) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+    }
+    return low <= high ? std::pair{low, high} : std::pair{0.0f, 1.0f};
+}
+
 FloatImage ChapterSession::display(const FloatImage& picture, const ViewInfo& view) const {
     if (view.scalar && view.falseColour) {
-        const auto [low, high] = finiteRange(picture);
+        const auto [low, high] = colourRange(picture);
         return falseColour(picture, low, high);
     }
     if (view.scalar) return toneMap(picture, 1.0f);

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "common/app/chapter.h"
 #include "common/app/command_line.h"
@@ -61,6 +62,8 @@ class ChapterSession {
     /// What a screen can show, 1 or 3 channels in [0,1], linear: tone-mapped, grey or in false colour, as the
     /// view says.
     FloatImage display(const FloatImage& picture, const ViewInfo& view) const;
+    /// Of a false-colour view: the values that the darkest and the brightest colour stand for.
+    static std::pair<float, float> colourRange(const FloatImage& picture);
 
  private:
     std::unique_ptr<RenderTarget> makeTarget(const glm::ivec2& size);

@@ -104,23 +104,49 @@ float errorRange(const TruthComparison& comparison) {
     return comparison.report.quantity == "visibility" ? 1.0f : float(comparison.report.figures.maxAbs);
 }
 
-/// The picture to write, linear values for .exr, for the screen otherwise.
-FloatImage outputPicture(const ChapterSession& session, const FloatImage& picture, const std::string& drawn,
-                         const std::optional<TruthComparison>& comparison) {
-    const Options& options = session.options();
-    const bool linear = options.output.extension() == ".exr" || options.output.extension() == ".EXR";
-    if (options.view == "truth") {
-        if (linear) return definedTruth(*comparison);
-        const FloatImage shown =
-            session.display(comparison->truth.value, session.view(comparison->report.view));
-        return greyWhereUndefined(shown, comparison->truth.mask);
-    }
-    if (options.view == "error") {
-        const FloatImage error = absoluteError(*comparison);
-        if (linear) return error;
-        return greyWhereUndefined(falseColour(error, 0.0f, errorRange(*comparison)), comparison->truth.mask);
-    }
-    return linear ? picture : session.display(picture, session.view(drawn));
+bool isLinear(const std::filesystem::path& file) {
+    return file.extension() == ".exr" || file.extension() == ".EXR";
+}
+
+/// What to write, and for false colours what they mean.
+struct OutputPicture {
+    FloatImage image;
+    std::string key = {};
+};
+
+std::string colourKey(float low, float high) {
+    return fmt::format("  colours {:.4g} (dark blue) to {:.4g} (yellow)\n", low, high);
+}
+
+OutputPicture shownPicture(const ChapterSession& session, const FloatImage& picture, const ViewInfo& view) {
+    OutputPicture output{session.display(picture, view)};
+    if (!view.scalar || !view.falseColour) return output;
+    const auto [low, high] = ChapterSession::colourRange(picture);
+    output.key = colourKey(low, high);
+    return output;
+}
+
+OutputPicture truthPicture(const ChapterSession& session, const TruthComparison& comparison) {
+    if (isLinear(session.options().output)) return {definedTruth(comparison)};
+    OutputPicture output =
+        shownPicture(session, comparison.truth.value, session.view(comparison.report.view));
+    output.image = greyWhereUndefined(output.image, comparison.truth.mask);
+    return output;
+}
+
+OutputPicture errorPicture(const ChapterSession& session, const TruthComparison& comparison) {
+    const FloatImage error = absoluteError(comparison);
+    if (isLinear(session.options().output)) return {error};
+    const float high = errorRange(comparison);
+    return {greyWhereUndefined(falseColour(error, 0.0f, high), comparison.truth.mask), colourKey(0.0f, high)};
+}
+
+OutputPicture outputPicture(const ChapterSession& session, const FloatImage& picture,
+                            const std::string& drawn, const std::optional<TruthComparison>& comparison) {
+    if (session.options().view == "truth") return truthPicture(session, *comparison);
+    if (session.options().view == "error") return errorPicture(session, *comparison);
+    if (isLinear(session.options().output)) return {picture};
+    return shownPicture(session, picture, session.view(drawn));
 }
 
 /// What a reference picture must carry to be made again; nothing that differs between two runs.
@@ -134,14 +160,14 @@ std::map<std::string, std::string> provenance(const ChapterSession& session, con
             {"penumbra:renderer", report.renderer}};
 }
 
-void tell(const Options& options, const Report& report) {
+void tell(const Options& options, const Report& report, const std::string& key) {
     if (options.report == "-") {
         std::fputs(reportJson(report).c_str(), stdout);
         return;
     }
     if (!options.report.empty()) writeTextFile(options.report, reportJson(report));
     if (options.quiet) return;
-    fmt::print("{}", reportSummary(report));
+    fmt::print("{}{}", reportSummary(report), key);
     if (!options.output.empty()) fmt::print("  wrote   {}\n", options.output.string());
     if (!options.report.empty()) fmt::print("  wrote   {}\n", options.report.string());
 }
@@ -168,14 +194,18 @@ void runHeadless(ChapterSession& session, Progress& progress, Clock::time_point 
     std::optional<TruthComparison> comparison;
     if (options.compareTruth) {
         progress.start("exact answer");
-        comparison = compareWithTruth(session, options.view);
+        const DrawnPicture onePerPixel{drawn, options.antialias == 1 ? &picture : nullptr};
+        comparison = compareWithTruth(session, options.view, onePerPixel);
         report.error = comparison->report;
     }
     progress.finish();
-    if (!options.output.empty())
-        writeImage(options.output, outputPicture(session, picture, drawn, comparison),
-                   provenance(session, report));
-    tell(options, report);
+    std::string key;
+    if (!options.output.empty()) {
+        const OutputPicture output = outputPicture(session, picture, drawn, comparison);
+        writeImage(options.output, output.image, provenance(session, report));
+        key = output.key;
+    }
+    tell(options, report, key);
 }
 
 }  // namespace penumbra

@@ -72,6 +72,10 @@ std::string helpText(const ChapterInfo& info, const std::vector<Flag>& flags, co
     appendExamples(out, info.name, parameters);
     appendFlags(out, flags);
     appendViews(out, info);
+    out += "\nEnvironment\n";
+    appendEntry(out, "PENUMBRA_ASSETS", "folder of the scenes, instead of assets/");
+    appendEntry(out, "PENUMBRA_SHADERS", "folder of the shaders, instead of shaders/");
+    appendEntry(out, "PENUMBRA_TRUTH_CACHE", "where exact answers are kept, instead of out/truth-cache");
     out += "\nExit status: 0 fine, 1 the work failed, 2 the command line is wrong.\n";
     return out;
 }

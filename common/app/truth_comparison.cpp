@@ -49,7 +49,8 @@ void findTruth(ChapterSession& session, const std::string& preferred, TruthCompa
 
 }  // namespace
 
-TruthComparison compareWithTruth(ChapterSession& session, const std::string& preferred) {
+TruthComparison compareWithTruth(ChapterSession& session, const std::string& preferred,
+                                 const DrawnPicture& drawn) {
     TruthComparison comparison;
     const auto start = std::chrono::steady_clock::now();
     findTruth(session, preferred, comparison);
@@ -57,7 +58,10 @@ TruthComparison compareWithTruth(ChapterSession& session, const std::string& pre
     report.truthMs =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     comparison.actual =
-        session.picture({.view = report.view, .camera = session.camera(), .size = session.options().size});
+        drawn.picture && drawn.view == report.view
+            ? *drawn.picture
+            : session.picture(
+                  {.view = report.view, .camera = session.camera(), .size = session.options().size});
     const TruthImage& truth = comparison.truth;
     report.quantity = truth.quantity;
     report.truth = truth.method;

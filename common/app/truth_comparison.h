@@ -12,9 +12,17 @@ struct TruthComparison {
     ErrorReport report;
 };
 
+/// A picture that is there already, one sample a pixel, and its view.
+struct DrawnPicture {
+    std::string view;
+    const FloatImage* picture = nullptr;  ///< null: none
+};
+
 /// The view to compare: `preferred` if the chapter has an exact answer for it, else visibility, else the
-/// first view that has one. Throws UsageError if none has.
-TruthComparison compareWithTruth(ChapterSession& session, const std::string& preferred);
+/// first view that has one. It is drawn unless it is `drawn` already. Throws UsageError if no view has an
+/// exact answer.
+TruthComparison compareWithTruth(ChapterSession& session, const std::string& preferred,
+                                 const DrawnPicture& drawn);
 
 /// |actual - exact|, 1 channel (of the channel that differs most); NaN where the exact answer is undefined.
 FloatImage absoluteError(const TruthComparison& comparison);
