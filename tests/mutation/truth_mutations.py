@@ -39,7 +39,8 @@ MUTATIONS = {
     "RoundingAddsLight": (
         "common/truth/cone_subtraction.cpp", "cone_subtraction", [("std::min(sum, whole)", "sum")]),
     "FullPiecesAreNotHalved": (
-        "common/truth/cone_subtraction.cpp", "polygon_light", [("Polygon3::capacity / 2) halve(", "1000) halve(")]),
+        "common/truth/cone_subtraction.cpp", "cone_subtraction",
+        [("Polygon3::capacity / 2) halve(", "1000) halve(")]),
     "HalvesForgetCones": (
         "common/truth/cone_subtraction.cpp", "cone_subtraction",
         [("work.listed.resize(begin);", "work.listed.resize(begin), last = std::min(last, first + 40);")]),

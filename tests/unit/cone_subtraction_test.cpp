@@ -257,6 +257,31 @@ TEST(ConeSubtraction, TheOrderOfOccludersDoesNotMatter) {
     }
 }
 
+// Two planes of each of 11 cones round off one corner of an 11-gon: its middle piece ends with 33 corners,
+// more than a polygon holds.
+TEST(ConeSubtraction, PiecesMayGrowManyCorners) {
+    constexpr int corners = 11;
+    const dvec3 x(0.1, 0.05, 0), middle(0, 0, 2);
+    const auto direction = [](double angle) { return dvec3(std::cos(angle), std::sin(angle), 0); };
+    std::vector<dvec3> polygon;
+    std::vector<Triangle> slivers;
+    for (int i = 0; i < corners; ++i) {
+        const double angle = -2.0 * 3.14159265358979324 * i / corners;
+        polygon.push_back(middle + 0.5 * direction(angle));
+        const dvec3 apex = middle + 0.4906 * direction(angle);
+        Triangle t = {apex + 0.2 * direction(angle + 1.52), apex, apex + 0.2 * direction(angle + 1.62)};
+        for (dvec3& p : t) p = 0.5 * (p + x);
+        slivers.push_back(t);
+    }
+    double fan = 0.0;
+    for (int i = 0; i < corners; ++i) {
+        const dvec3 part[] = {middle, polygon[std::size_t(i)], polygon[std::size_t((i + 1) % corners)]};
+        fan += visibleFormFactor(x, up, part, slivers);
+    }
+    EXPECT_NEAR(visibleFormFactor(x, up, polygon, slivers), fan, 1e-15);
+    EXPECT_LT(fan, formFactor(x, up, polygon) - 1e-6);
+}
+
 // Many occluders are dealt with part by part of the light; by how many parts must not matter.
 TEST(ConeSubtraction, APatchworkOfLightsIsTheLight) {
     std::mt19937 random(15);
