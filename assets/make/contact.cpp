@@ -16,10 +16,10 @@ Mesh leaningPlank() {
 
 GlbWriter makeContact() {
     GlbWriter scene("contact");
-    scene.camera("camera", looking({1.7, 2.3, 5.6}, {0.0, 0.62, -0.4}), 38.0, 0.1, 40.0);
+    scene.camera("camera", looking({0.9, 2.5, 5.9}, {0.0, 0.66, -0.3}), 38.0, 0.1, 40.0);
     scene.spot("lamp behind the wall", looking({-3.2, 3.4, -4.2}, {0.2, 0.2, 0.0}), {110.0, 98.0, 80.0}, 25.0,
                38.0);
-    scene.point("lamp in front", {2.6, 2.2, 2.8}, {9.0, 10.0, 12.0});
+    scene.point("lamp in front", {2.6, 2.2, 2.8}, {8.0, 9.0, 11.0});
 
     const int floor = scene.material({.name = "floor", .colour = {0.62, 0.6, 0.56}, .roughness = 0.9});
     const int plaster = scene.material({.name = "plaster", .colour = {0.66, 0.5, 0.36}, .roughness = 0.95});
@@ -28,10 +28,10 @@ GlbWriter makeContact() {
     const int iron = scene.material({.name = "iron", .colour = {0.18, 0.18, 0.2}, .roughness = 0.35});
 
     scene.add("floor", {box({-6.0, -0.25, -6.0}, {6.0, 0.0, 6.0}), floor});
-    scene.add("wall", {box({-2.2, 0.0, -1.4}, {0.2, 2.0, -1.2}), plaster});
-    scene.add("box", {box({-0.4, 0.0, -0.4}, {0.4, 0.8, 0.4}), paint}, turned({-0.9, 0.0, 0.5}, 28.0));
+    scene.add("wall", {box({-1.2, 0.0, -1.4}, {0.2, 1.9, -1.2}), plaster});
+    scene.add("box", {box({-0.4, 0.0, -0.4}, {0.4, 0.8, 0.4}), paint}, turned({-1.35, 0.0, 0.55}, 28.0));
     scene.add("plank", {leaningPlank(), wood});
-    scene.add("post", {bar({0.0, 0.0, 0.0}, {0.0, 1.7, 0.0}, 0.03, 12), iron, 60.0}, at({1.3, 0.0, 0.4}));
+    scene.add("post", {bar({0.0, 0.0, 0.0}, {0.0, 1.7, 0.0}, 0.03, 12), iron, 60.0}, at({-0.15, 0.0, 0.75}));
     scene.extras(R"({"note": "wall, box, plank and post stand on y = 0 without a gap"})");
     return scene;
 }

@@ -22,9 +22,9 @@ void addGround(GlbWriter& scene) {
 
 GlbWriter makeCourtyard() {
     GlbWriter scene("courtyard");
-    scene.camera("camera", looking({1.1, 1.8, 7.3}, {-0.15, 1.75, -4.0}), 42.0, 0.1, 60.0);
+    scene.camera("camera", looking({-1.3, 2.05, 8.7}, {0.55, 1.75, -4.0}), 44.0, 0.1, 60.0);
     scene.camera("from the landing", looking({4.6, 4.1, -5.4}, {-2.6, 0.2, 0.6}), 55.0, 0.1, 60.0);
-    scene.sun("low sun", {0.8, -0.5, 0.3}, {4.1, 3.1, 2.0});
+    scene.sun("low sun", {0.8, -0.52, -0.42}, {4.1, 3.1, 2.0});
     scene.point("lantern", lanternLight, {9.0, 6.4, 3.4});
     addGround(scene);
     addCloister(scene);

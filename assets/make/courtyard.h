@@ -13,6 +13,6 @@ void addGarden(GlbWriter& scene);     ///< tree, pots, ivy
 void addFurniture(GlbWriter& scene);  ///< bench, lamp post, jars
 
 /// Where the light in the lantern is.
-constexpr Vec3 lanternLight{3.55, 2.34, 0.55};
+constexpr Vec3 lanternLight{2.95, 2.34, -0.5};
 
 }  // namespace penumbra::assets

@@ -26,7 +26,7 @@ void addTree(GlbWriter& scene, const Greens& greens) {
     std::array<int, 4> tufts{};
     for (int& tuft : tufts)
         tuft =
-            scene.mesh("leaves", {{leafCluster(random, 15, 0.26, 0.13), greens.leaves, 0.0, Surface::open}});
+            scene.mesh("leaves", {{leafCluster(random, 19, 0.27, 0.13), greens.leaves, 0.0, Surface::open}});
     for (std::size_t i = 0; i < tree.tufts.size(); ++i)
         scene.placeByMatrix("tuft", tufts[i % tufts.size()], tree.tufts[i], crown);
 }

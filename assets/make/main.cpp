@@ -19,9 +19,11 @@ constexpr SceneMaker makers[] = {
     {"heckbert_herf.glb", makeHeckbertHerf},
     {"contact.glb", makeContact},
     {"spheres.glb", makeSpheres},
+    {"gully.glb", makeGully},
+    {"room.glb", makeRoom},
     {"fence.glb", makeFence},
-    {"courtyard.glb", makeCourtyard},
     {"knot.glb", makeKnot},
+    {"courtyard.glb", makeCourtyard},
 };
 
 }  // namespace

@@ -145,20 +145,22 @@ Mesh bar(const Vec3& from, const Vec3& to, double radius, int segments) {
     return tube({from, to}, {radius}, segments);
 }
 
-Mesh extrude(const Polygon& polygon, double zLow, double zHigh) {
+Mesh extrude(const Polygon& polygon, double zLow, double zHigh, int slices) {
     Mesh mesh;
     const auto n = static_cast<std::uint32_t>(polygon.size());
-    for (const Vec2& p : polygon) mesh.positions.emplace_back(p, zLow);
-    for (const Vec2& p : polygon) mesh.positions.emplace_back(p, zHigh);
+    for (int s = 0; s <= slices; ++s)
+        for (const Vec2& p : polygon) mesh.positions.emplace_back(p, zLow + (zHigh - zLow) * s / slices);
+    const std::uint32_t last = n * static_cast<std::uint32_t>(slices);
     for (const glm::uvec3& t : triangulate(polygon)) {
-        mesh.triangles.push_back(t + n);
+        mesh.triangles.push_back(t + last);
         mesh.triangles.push_back({t.x, t.z, t.y});
     }
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t j = (i + 1) % n;
-        mesh.triangles.push_back({i, j, j + n});
-        mesh.triangles.push_back({i, j + n, i + n});
-    }
+    for (std::uint32_t low = 0; low < last; low += n)
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t j = (i + 1) % n;
+            mesh.triangles.push_back({low + i, low + j, low + j + n});
+            mesh.triangles.push_back({low + i, low + j + n, low + i + n});
+        }
     return mesh;
 }
 

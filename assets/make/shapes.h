@@ -35,8 +35,9 @@ Mesh tube(const std::vector<Vec3>& curve, const std::vector<double>& radius, int
 /// Straight round bar.
 Mesh bar(const Vec3& from, const Vec3& to, double radius, int segments = 8);
 
-/// Prism over a simple, perhaps concave, counter-clockwise polygon (x, y), from z = zLow to z = zHigh.
-Mesh extrude(const Polygon& polygon, double zLow, double zHigh);
+/// Prism over a simple, perhaps concave, counter-clockwise polygon (x, y), from z = zLow to z = zHigh, its
+/// sides cut into `slices` along z.
+Mesh extrude(const Polygon& polygon, double zLow, double zHigh, int slices = 1);
 
 /// Indices of triangles that fill a simple counter-clockwise polygon (ear clipping; Meisters 1975).
 std::vector<glm::uvec3> triangulate(const Polygon& polygon);
