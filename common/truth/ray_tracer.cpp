@@ -35,8 +35,8 @@ struct Query {
     std::uint32_t ignoreBegin = 0;  ///< triangles [ignoreBegin, ignoreEnd) are not there
     std::uint32_t ignoreEnd = 0;
     const ShadowRay* rays = nullptr;  ///< indexed by the id of an Embree ray
-    std::array<bool, packetSize>
-        passedAnEdge{};  ///< float and double disagreed about a candidate, by the same id
+    /// Float and double disagreed about a candidate of the ray of this id.
+    std::array<bool, packetSize> doubtful{};
     const glm::vec3* vertices = nullptr;
     const std::uint32_t* indices = nullptr;
 
@@ -65,13 +65,14 @@ void exactShadowFilter(const RTCFilterFunctionNArguments* arguments) {
         const std::uint32_t candidate = RTCHitN_primID(arguments->hit, arguments->N, i);
         const unsigned id = RTCRayN_id(arguments->ray, arguments->N, i);
         const ShadowRay& ray = query->rays[id];
-        Crossing crossing = Crossing::none;
-        if (candidate != ray.triangle && !query->ignores(candidate)) {
-            crossing =
-                crossTriangle({ray.origin, ray.target, ray.towardsInfinity}, query->triangle(candidate));
+        if (candidate == ray.triangle || query->ignores(candidate)) {
+            arguments->valid[i] = 0;
+            continue;
         }
-        if (crossing == Crossing::missed) query->passedAnEdge[id] = true;
-        if (crossing != Crossing::inside) arguments->valid[i] = 0;
+        const Segment segment{ray.origin, ray.target, ray.towardsInfinity};
+        if (crossTriangle(segment, query->triangle(candidate)) == Crossing::inside) continue;
+        query->doubtful[id] = true;
+        arguments->valid[i] = 0;
     }
 }
 
@@ -325,7 +326,7 @@ void RayTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t
     for (std::size_t first = 0; first < rays.size(); first += packetSize) {
         const auto packet = rays.subspan(first, std::min<std::size_t>(packetSize, rays.size() - first));
         query.rays = packet.data();
-        query.passedAnEdge.fill(false);
+        query.doubtful.fill(false);
         if (packet.size() == 1) {
             state_->traceOne(packet[0], blocked[first], query);
         } else {
@@ -333,7 +334,7 @@ void RayTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t
         }
         for (std::size_t i = 0; i < packet.size(); ++i) {
             if (blocked[first + i]) continue;
-            const bool settled = !query.passedAnEdge[i] &&
+            const bool settled = !query.doubtful[i] &&
                                  (packet[i].triangle == ShadowRay::noTriangle ||
                                   !nearOwnEdge(packet[i], state_->reach, query.triangle(packet[i].triangle)));
             if (!settled) blocked[first + i] = state_->occludedExactly(packet[i], ignorePart) ? 1 : 0;
