@@ -31,6 +31,7 @@ class TinyChapter : public Chapter {
     void load(const Scene&, const Context*) override {}
     void render(const Frame& frame) override {
         PassScope scope(frame.passTimer, "only");
+        if (seconds_ > 0) writeFile("started", "");
         for (int i = 0; i < 20 * seconds_; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
             frame.progress((i + 1) / (20.0 * seconds_));
@@ -223,6 +224,13 @@ TEST_F(Cli, WorkThatFailsIsStatusOneAndOneLineAndLeavesNothing) {
     expectRefusal({"--fault", "error", "--output", "new/folder/a.png"}, 1, "failed");
 }
 
+TEST_F(Cli, AFileThatCannotBeWrittenIsNamedBeforeTheWorkBegins) {
+    expectRefusal({"--report", "triangle.gltf/r.json", "--seconds", "1"}, 1,
+                  "triangle.gltf/r.json: cannot be written");
+    expectRefusal({"--output", "triangle.gltf/a.png", "--seconds", "1"}, 1,
+                  "triangle.gltf/a.png: cannot be written");
+}
+
 TEST_F(Cli, AFullStandardOutputIsAFailure) {
     ProgramCall full = call({"--report", "-", "--size", "4x4"});
     full.standardOutput = "/dev/full";
@@ -242,13 +250,11 @@ TEST_F(Cli, CtrlCEndsWithOneLineAndNoFiles) {
     for (const int signal : {SIGINT, SIGTERM}) {
         ProgramCall interrupted = call({"--seconds", "60", "--quiet", "--output", "a.png"});
         interrupted.signal = signal;
-        const auto start = std::chrono::steady_clock::now();
-        interrupted.signalWhen = [start] {
-            return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(500);
-        };
+        interrupted.signalWhen = [this] { return std::filesystem::exists(folder / "started"); };
         const ProgramResult result = runProgram(interrupted);
         EXPECT_EQ(result.status, 128 + signal);
         EXPECT_EQ(result.errorLines(), 1) << result.err;
+        EXPECT_TRUE(std::filesystem::remove(folder / "started"));
         EXPECT_EQ(filesLeft(), 0u);
     }
 }
