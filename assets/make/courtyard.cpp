@@ -9,7 +9,7 @@ namespace penumbra::assets {
 
 void addGround(GlbWriter& scene) {
     const int mortar = scene.material({.name = "mortar", .colour = {0.3, 0.26, 0.21}, .roughness = 0.95});
-    scene.add("mortar", {box({-9.0, -0.4, -12.0}, {8.0, -0.012, 9.0}), mortar});
+    scene.add("mortar", {box({-13.0, -0.4, -12.0}, {8.0, -0.012, 9.0}), mortar});
     const Vec3 tints[] = {{0.56, 0.47, 0.37}, {0.5, 0.43, 0.35}, {0.6, 0.51, 0.4}, {0.47, 0.4, 0.34}};
     Random random(3);
     const std::vector<Mesh> stones = paving(random, {-8.5, -11.2}, {6.2, 8.5}, 4);

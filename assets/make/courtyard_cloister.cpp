@@ -50,19 +50,22 @@ void addWindow(GlbWriter& scene, const Stone& stone) {
 }
 
 void addUpperWall(GlbWriter& scene, const Stone& stone) {
-    scene.add("gallery wall", {box({-8.6, 0.0, -11.4}, {6.5, 6.3, -11.0}), stone.plaster});
-    scene.add("eaves", {box({-8.7, 6.3, -11.5}, {6.6, 6.45, -10.7}), stone.trim});
+    scene.add("gallery wall", {box({-13.0, 0.0, -11.4}, {6.5, 9.9, -11.0}), stone.plaster});
+    scene.add("eaves", {box({-13.1, 9.9, -11.5}, {6.6, 10.05, -10.7}), stone.trim});
     Mesh shutters;
     Mesh sills;
-    for (const double x : {-4.4, -1.2, 2.0}) {
-        sills.append(box({x - 0.65, 5.08, -11.02}, {x + 0.65, 5.14, -10.86}));
-        for (const double side : {-1.0, 1.0}) {
-            const double left = x + 0.28 * side - 0.26;
-            for (int slat = 0; slat < 9; ++slat)
-                shutters.append(
-                    box({left, 5.18 + 0.11 * slat, -11.0}, {left + 0.52, 5.26 + 0.11 * slat, -10.95}));
+    for (const double sill : {5.3, 7.85})
+        for (const double x : {-10.6, -7.4, -4.2, -1.0, 2.2}) {
+            sills.append(box({x - 0.7, sill - 0.1, -11.02}, {x + 0.7, sill, -10.84}));
+            sills.append(box({x - 0.7, sill + 1.42, -11.02}, {x + 0.7, sill + 1.54, -10.9}));
+            for (const double side : {-1.0, 1.0}) {
+                const double left = x + 0.28 * side - 0.26;
+                for (int slat = 0; slat < 12; ++slat)
+                    shutters.append(box({left, sill + 0.02 + 0.115 * slat, -11.0},
+                                        {left + 0.52, sill + 0.1 + 0.115 * slat, -10.95}));
+            }
         }
-    }
+    scene.add("string course", {box({-13.0, 7.3, -11.02}, {6.0, 7.42, -10.9}), stone.trim});
     scene.add("shutters", {shutters, stone.wood});
     scene.add("sills", {sills, stone.trim});
 }

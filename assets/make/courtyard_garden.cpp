@@ -14,7 +14,7 @@ struct Greens {
 void addTree(GlbWriter& scene, const Greens& greens) {
     Random random(11);
     const Tree tree = growTree(random, 5.2, 0.15);
-    const int place = scene.group("tree", at({-2.9, 0.0, -2.6}));
+    const int place = scene.group("tree", at({-3.0, 0.0, -4.1}));
     scene.add(
         "ring",
         {lathe({{0.0, 0.0}, {0.85, 0.0}, {0.85, 0.3}, {0.82, 0.34}, {0.68, 0.34}, {0.68, 0.24}, {0.0, 0.26}},
@@ -43,7 +43,7 @@ void addPots(GlbWriter& scene, const Greens& greens) {
         double turn, scale;
         bool isAgave;
     };
-    const Place places[] = {{{-2.15, 0.0, 3.0}, 20.0, 1.25, true},  {{-2.95, 0.0, 2.5}, 80.0, 0.95, false},
+    const Place places[] = {{{-2.55, 0.0, 3.0}, 20.0, 1.25, true},  {{-3.35, 0.0, 2.4}, 80.0, 0.95, false},
                             {{3.6, 0.0, -1.6}, 40.0, 1.0, false},   {{3.75, 0.0, -2.6}, 150.0, 0.9, true},
                             {{3.6, 0.0, -3.7}, 200.0, 1.05, false}, {{5.35, 0.0, 0.7}, 250.0, 1.15, true},
                             {{-5.3, 0.0, -6.9}, 250.0, 1.1, false}, {{2.4, 0.0, -7.1}, 10.0, 1.0, true}};

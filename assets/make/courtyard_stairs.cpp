@@ -30,10 +30,11 @@ void addStairWing(GlbWriter& scene) {
     const int iron = scene.material({.name = "iron", .colour = {0.1, 0.11, 0.12}, .roughness = 0.35});
     const int wood = scene.material({.name = "door wood", .colour = {0.3, 0.16, 0.08}, .roughness = 0.6});
 
-    scene.add("stair wall", {box({5.9, 0.0, -11.2}, {6.4, 5.6, 4.5}), plaster});
-    Mesh coping = box({5.8, 5.6, -11.2}, {6.5, 5.72, 4.6});
+    scene.add("stair wall", {box({5.9, 0.0, -11.2}, {6.4, 9.9, 4.5}), plaster});
+    Mesh coping = box({5.72, 9.9, -11.2}, {6.5, 10.05, 4.6});
     scene.add("coping", {coping.append(box({5.86, 0.0, -0.4}, {5.93, 0.5, 4.5})), stone});
     scene.add("stairs", {stairs(steps, rise, run, stairWidth, landing), stone}, at({left, 0.0, foot}));
+    scene.add("string course", {box({5.82, 6.1, -11.0}, {6.0, 6.24, 4.5}), stone});
     Mesh nosings;
     for (int i = 0; i < steps; ++i)
         nosings.append(box({left - 0.03, (i + 1) * rise - 0.035, foot - i * run - 0.2},

@@ -36,9 +36,9 @@ void addWires(GlbWriter& scene, int iron) {
 void addIvy(GlbWriter& scene, int wood, int green) {
     Random random(7);
     Mesh stems, leaves;
-    growIvy(random, {{0.9, 0.0, 0.01}, {1.0, 0.6, 0.01}, {0.75, 1.1, 0.01}, {1.0, 1.75, 0.01}}, 0.07, 0.5,
-            260, stems, leaves);
-    growIvy(random, {{1.0, 0.0, 0.01}, {1.3, 0.5, 0.01}, {1.7, 0.9, 0.01}, {1.8, 1.5, 0.01}}, 0.06, 0.4, 220,
+    growIvy(random, {{0.9, 0.0, 0.01}, {1.0, 0.6, 0.01}, {0.75, 1.1, 0.01}, {1.0, 2.3, 0.01}}, 0.07, 0.5, 260,
+            stems, leaves);
+    growIvy(random, {{1.0, 0.0, 0.01}, {1.3, 0.5, 0.01}, {1.7, 0.9, 0.01}, {1.8, 2.0, 0.01}}, 0.06, 0.4, 220,
             stems, leaves);
     const int parent = scene.group("ivy", at({0.0, 0.0, -1.2}));
     scene.add("stems", {stems, wood, 70.0}, {}, parent);
@@ -49,7 +49,7 @@ void addIvy(GlbWriter& scene, int wood, int green) {
 
 GlbWriter makeFence() {
     GlbWriter scene("fence");
-    scene.camera("camera", looking({0.5, 1.75, 4.6}, {-0.02, 0.62, -0.35}), 40.0, 0.05, 40.0);
+    scene.camera("camera", looking({0.35, 1.8, 5.0}, {-0.02, 0.62, -0.35}), 42.0, 0.05, 40.0);
     scene.sun("sun", {0.42, -0.72, -0.68}, {3.2, 2.9, 2.4});
     scene.point("lamp", {0.3, 2.0, 1.9}, {6.0, 5.2, 4.0});
 
@@ -61,7 +61,7 @@ GlbWriter makeFence() {
         scene.material({.name = "ivy", .colour = {0.14, 0.3, 0.08}, .roughness = 0.55, .doubleSided = true});
 
     scene.add("ground", {box({-5.0, -0.25, -4.0}, {5.0, 0.0, 6.0}), floor});
-    scene.add("wall", {box({-5.0, 0.0, -1.45}, {5.0, 2.0, -1.2}), plaster});
+    scene.add("wall", {box({-5.0, 0.0, -1.45}, {5.0, 3.4, -1.2}), plaster});
     addNetting(scene, iron);
     addWires(scene, iron);
     scene.add("railing", {railing(2.4, 0.9, 0.11, 0.008), iron, 60.0}, turned({-2.4, 0.0, -0.62}, 0.0));

@@ -65,7 +65,7 @@ Mesh pitBlock() {
 
 GlbWriter makeGully() {
     GlbWriter scene("gully");
-    scene.camera("camera", looking({2.6, 6.2, 8.2}, {1.9, -0.6, -0.6}), 58.0, 0.1, 80.0);
+    scene.camera("camera", looking({2.4, 9.0, 7.6}, {1.9, -0.8, -0.3}), 52.0, 0.1, 80.0);
     scene.sun("sun", {0.55, -0.75, -0.4}, {3.2, 2.9, 2.5});
     scene.point("lamp", {4.6, 2.4, 1.2}, {8.0, 7.0, 5.5});
     const int sand = scene.material({.name = "sand", .colour = {0.64, 0.55, 0.43}, .roughness = 0.95});

@@ -20,7 +20,7 @@ Mesh rectangle(double half, double height, bool facingUp) {
 
 GlbWriter makeHeckbertHerf() {
     GlbWriter scene("Heckbert and Herf's scene");
-    scene.camera("camera", looking({1.55, 1.5, 3.35}, {0.0, 0.78, 0.0}), 50.0, 0.1, 20.0);
+    scene.camera("camera", looking({1.55, 1.5, 3.4}, {0.02, 0.76, 0.0}), 54.0, 0.1, 20.0);
     // Exactly what lies on the receiver, undistorted: just below the triangle, looking straight down.
     scene.orthographicCamera("receiver", looking({0.0, 0.9, 0.0}, {0.0, 0.0, 0.0}), 2.4, 0.05, 2.0);
 
