@@ -7,13 +7,17 @@ namespace penumbra {
 
 namespace {
 
-/// Window depth of the first surface seen through `uv`, the far plane's where there is none before it.
-double castDepth(const RayTracer& tracer, const LightFrustum& frustum, const glm::dvec2& uv, int lightPart,
-                 bool& surface) {
+struct CastDepth {
+    double window = 1.0;  ///< the far plane's where there is no surface before it
+    bool surface = false;
+};
+
+CastDepth castDepth(const RayTracer& tracer, const LightFrustum& frustum, const glm::dvec2& uv,
+                    int lightPart) {
     const Hit hit = tracer.nearest(frustum.ray(uv), lightPart);
     const double eyeDepth = hit.valid ? frustum.axisDistance(hit.position) : frustum.far;
-    surface = hit.valid && eyeDepth < frustum.far;
-    return frustum.windowDepth(surface ? eyeDepth : frustum.far);
+    const bool surface = hit.valid && eyeDepth < frustum.far;
+    return {frustum.windowDepth(surface ? eyeDepth : frustum.far), surface};
 }
 
 }  // namespace
@@ -30,18 +34,21 @@ glm::ivec2 texelShownAt(const glm::ivec2& pixel, const glm::ivec2& pictureSize, 
 TexelDepth exactTexelDepth(const RayTracer& tracer, const LightFrustum& frustum, const glm::ivec2& texel,
                            int mapSize, DepthFormat format, int lightPart) {
     // Rasterisers snap vertices to 1/256 of a texel: that near to an edge, both of its sides are right.
-    const glm::dvec2 snap(1.0 / 256.0);
-    bool surface[3];
-    double depth[3];
-    for (int i = 0; i < 3; ++i) {
-        const glm::dvec2 uv = (glm::dvec2(texel) + 0.5 + double(i - 1) * snap) / double(mapSize);
-        depth[i] = castDepth(tracer, frustum, uv, lightPart, surface[i]);
+    const auto cast = [&](double dx, double dy) {
+        const glm::dvec2 uv = (glm::dvec2(texel) + 0.5 + glm::dvec2(dx, dy) / 256.0) / double(mapSize);
+        return castDepth(tracer, frustum, uv, lightPart);
+    };
+    const CastDepth centre = cast(0, 0);
+    TexelDepth exact{centre.window, true, centre.surface};
+    for (const double up : {1.0, -1.0}) {
+        const CastDepth left = cast(-1, -up), right = cast(1, up);
+        // On one plane the depths of three points in a row are in a row.
+        const double bend = std::abs(0.5 * (left.window + right.window) - centre.window);
+        if (bend > 2.0 * depthQuantum(format, centre.window) || left.surface != centre.surface ||
+            right.surface != centre.surface)
+            exact.defined = false;
     }
-    // On one plane the depths of three points in a row are in a row.
-    const double bend = std::abs(0.5 * (depth[0] + depth[2]) - depth[1]);
-    const bool defined =
-        bend <= 2.0 * depthQuantum(format, depth[1]) && surface[0] == surface[1] && surface[1] == surface[2];
-    return {depth[1], defined, surface[1]};
+    return exact;
 }
 
 TruthImage depthTruth(const RayTracer& tracer, const LightFrustum& frustum, const glm::ivec2& pictureSize,

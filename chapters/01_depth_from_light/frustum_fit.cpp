@@ -172,10 +172,13 @@ LightFrustum fitLightFrustum(const Scene& scene, const Light& light, const Camer
 
     const double slack = margin * (frustum.orthographic ? frustum.far - frustum.near : frustum.far);
     frustum.far += std::max(slack, 1e-6);
-    if (frustum.orthographic)
+    if (frustum.orthographic) {
         frustum.near -= std::max(slack, 1e-6);
-    else
-        frustum.near = std::max(frustum.near * (1.0 - margin), smallestNearOverFar * frustum.far);
+    } else {
+        frustum.near *= 1.0 - margin;
+        frustum.cutsCasters = frustum.near < smallestNearOverFar * frustum.far;
+        frustum.near = std::max(frustum.near, smallestNearOverFar * frustum.far);
+    }
     return frustum;
 }
 // [end:fit]

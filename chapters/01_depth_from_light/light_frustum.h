@@ -22,6 +22,9 @@ struct LightFrustum {
     double near = 0.1;  ///< metres along the axis from `eye` (orthographic: may be negative)
     double far = 100.0;
 
+    /// The near plane cuts casters: a closed one shows its inside, and its back faces must be drawn.
+    bool cutsCasters = false;
+
     glm::dmat4 clipFromWorld() const;
     /// To ([0,1]^2, window depth), before the division by q.
     glm::dmat4 textureFromWorld() const;

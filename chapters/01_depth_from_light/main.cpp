@@ -66,7 +66,7 @@ class DepthFromLight : public Chapter {
     void drawFromCamera(const Frame& frame) {
         glEnable(GL_DEPTH_TEST);
         setCameraAndLight(*lit_, frame, options_);
-        frame.gpu->drawShaded(*lit_, seenByCamera(frame));
+        drawPicture(*lit_, frame);
     }
 
     /// The same picture with the light as the camera: whatever is missing here is in shadow.

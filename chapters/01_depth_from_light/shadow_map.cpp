@@ -78,8 +78,8 @@ void ShadowMap::render(Program& program, const Frame& frame, const Light& light,
     const DepthState state(*this, draw, frame.framebuffer);
     program.set("uLightClipFromWorld", glm::mat4(lightClipFromWorld));
     program.prepareToDraw();
-    const DrawCounts drawn =
-        frame.gpu->drawDepth({&visible, draw.cullClosed, draw.frontFacesInstead, light.part});
+    const bool cull = draw.cullClosed && !frustum.cutsCasters;
+    const DrawCounts drawn = frame.gpu->drawDepth({&visible, cull, draw.frontFacesInstead, light.part});
     held_ = wanted;
 
     frame.work["shadow_maps_rendered"] += 1;

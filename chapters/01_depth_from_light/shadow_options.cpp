@@ -36,10 +36,14 @@ void setCameraAndLight(Program& program, const Frame& frame, const ShadowOptions
     setLight(program, options.chosenLight(frame.scene));
 }
 
-VisibleClusters seenByCamera(const Frame& frame) {
-    if (!frame.skip) return allClusters(frame.scene);
-    return visibleClusters(frame.scene,
-                           Frustum(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y)));
+void drawPicture(Program& program, const Frame& frame) {
+    const Frustum seen(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y));
+    const VisibleClusters visible =
+        frame.skip ? visibleClusters(frame.scene, seen) : allClusters(frame.scene);
+    const DrawCounts drawn = frame.gpu->drawShaded(program, visible);
+    frame.work["triangles_shaded"] += std::int64_t(drawn.triangles);
+    frame.work["triangles_unseen"] += std::int64_t(frame.scene.triangleCount() - drawn.triangles);
+    frame.work["draw_calls"] += std::int64_t(drawn.drawCalls);
 }
 
 }  // namespace penumbra

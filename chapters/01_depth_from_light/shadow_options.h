@@ -25,8 +25,9 @@ struct ShadowOptions {
 /// Sets the uniforms of lit.vert and lit.frag that don't belong to a material: camera, light, ambient term.
 void setCameraAndLight(Program& program, const Frame& frame, const ShadowOptions& options);
 
-/// What the camera of the frame sees, or everything without `frame.skip`.
-VisibleClusters seenByCamera(const Frame& frame);
+/// Draws what the camera of the frame can see (everything without `frame.skip`: same picture) with `program`.
+/// Counts triangles_shaded, triangles_unseen and draw_calls.
+void drawPicture(Program& program, const Frame& frame);
 
 /// Ambient radiance as a share of what key light gives a facing surface: dark enough for shadows to read,
 /// bright enough to see into them.

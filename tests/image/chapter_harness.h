@@ -53,35 +53,39 @@ class ChapterHarness {
 
     void set(const std::string& parameter, const std::string& value) { parameters_.set(parameter, value); }
 
-    /// The picture, top row first.
-    FloatImage picture(const std::string& view, const glm::ivec2& size, int channels) {
+    /// A frame like the one a chapter is given, its framebuffer bound.
+    Frame frame(const std::string& view, const glm::ivec2& size) {
         if (!target_ || target_->size() != size)
             target_ = std::make_unique<RenderTarget>(size, context_.capabilities());
         target_->bind();
         work.clear();
-        const ProgressCallback silent;
-        FloatImage unused;
-        chapter_->render({.scene = scene,
-                          .gpu = &gpu_,
-                          .context = &context_,
-                          .camera = camera,
-                          .size = size,
-                          .view = view,
-                          .framebuffer = target_->framebuffer(),
-                          .work = work,
-                          .seed = 0,
-                          .skip = skip,
-                          .cpuPicture = &unused,
-                          .progress = silent});
+        return {.scene = scene,
+                .gpu = &gpu_,
+                .context = &context_,
+                .camera = camera,
+                .size = size,
+                .view = view,
+                .framebuffer = target_->framebuffer(),
+                .work = work,
+                .seed = 0,
+                .skip = skip,
+                .cpuPicture = &unused_,
+                .progress = silent_};
+    }
+
+    /// The picture, top row first.
+    FloatImage picture(const std::string& view, const glm::ivec2& size, int channels) {
+        chapter_->render(frame(view, size));
         checkGlErrors(view.c_str());
         return target_->read(channels);
     }
     FloatImage scalar(const std::string& view, const glm::ivec2& size) { return picture(view, size, 1); }
 
+    const Capabilities& capabilities() const { return context_.capabilities(); }
+
     TruthImage truth(const std::string& view, const glm::ivec2& size) {
         if (!tracer_) tracer_ = std::make_unique<RayTracer>(scene);
-        const ProgressCallback silent;
-        return chapter_->truth({scene, *tracer_, camera, size, view, silent, &context_});
+        return chapter_->truth({scene, *tracer_, camera, size, view, silent_, &context_});
     }
 
     const Scene& scene;
@@ -96,6 +100,8 @@ class ChapterHarness {
     Parameters parameters_;
     std::unique_ptr<RenderTarget> target_;
     std::unique_ptr<RayTracer> tracer_;
+    ProgressCallback silent_;
+    FloatImage unused_;
 };
 
 }  // namespace penumbra
