@@ -10,8 +10,7 @@ namespace {
 // [begin:rounded-start]
 ShadowRay shadowRay(const Hit& hit, const Light& light, const LightSample& sample,
                     const ShadowRayOptions& options) {
-    ShadowRay ray{hit.position, hit.triangle, light.type == LightType::directional, hit.geometricNormal,
-                  sample.target};
+    ShadowRay ray = ShadowRay::from(hit, sample.target, light.type == LightType::directional);
     if (options.start == "rounded") {
         ray.origin = glm::dvec3(glm::vec3(hit.position));
         ray.triangle = ShadowRay::noTriangle;

@@ -47,7 +47,7 @@ double sampledShare(const RayTracer& tracer, const Hit& hit, const Light& light,
             const double r2 = glm::dot(toLight, toLight);
             weights[i] = std::max(0.0, glm::dot(hit.shadingNormal, toLight)) *
                          std::max(0.0, -glm::dot(light.direction, toLight)) / (r2 * r2);
-            rays[i] = {hit.position, hit.triangle, false, hit.geometricNormal, p};
+            rays[i] = ShadowRay::from(hit, p);
         }
         tracer.occluded(rays, blocked, light.part);
         for (std::uint32_t i = 0; i < batch; ++i) {

@@ -93,6 +93,16 @@ glm::dvec2 exactBarycentrics(const Ray& ray, const std::array<glm::dvec3, 3>& t,
     return b.x + b.y > 1.0 ? b / (b.x + b.y) : b;
 }
 
+double distanceToEdges(const glm::dvec3& p, const std::array<glm::dvec3, 3>& t) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 edge = t[(i + 1) % 3] - t[i];
+        const double length = glm::length(edge);
+        if (length > 0.0) least = std::min(least, glm::length(glm::cross(edge, p - t[i])) / length);
+    }
+    return least;
+}
+
 }  // namespace
 
 struct RayTracer::State {
@@ -117,18 +127,21 @@ struct RayTracer::State {
     Query query(int ignorePart) const;
     std::uint32_t partOf(std::uint32_t triangle) const;
     Hit hitAt(std::uint32_t triangle, const glm::dvec2& barycentric) const;
-    bool occludedExactly(const ShadowRay& ray, int ignorePart);
+    bool occludedExactly(const ShadowRay& ray, int ignorePart, double part);
     void traceOne(const ShadowRay& ray, std::uint8_t& blocked, Query& query) const;
     void traceSixteen(std::span<const ShadowRay> rays, std::uint8_t* blocked, Query& query) const;
 };
 
-/// The slow answer, wholly in double: for the one ray in about a million that float cannot settle.
-bool RayTracer::State::occludedExactly(const ShadowRay& ray, int ignorePart) {
+/// The slow answer, wholly in double, for the few rays that float cannot settle; about the first `part` of
+/// the ray.
+bool RayTracer::State::occludedExactly(const ShadowRay& ray, int ignorePart, double part) {
     std::call_once(exactOnce, [this] { exact = std::make_unique<ExactScene>(scene); });
     glm::dvec3 target = ray.target;
-    if (ray.towardsInfinity) {
+    if (ray.towardsInfinity && part >= 1.0) {
         const double beyond = 4.0 * (reach + largestCoordinate(ray.origin)) + 1.0;
         target = ray.origin + beyond * glm::normalize(ray.target);
+    } else if (part < 1.0) {
+        target = ray.origin + part * (ray.towardsInfinity ? ray.target : ray.target - ray.origin);
     }
     return exact->occluded(ray.origin, ray.triangle, target, ignorePart);
 }
@@ -201,6 +214,7 @@ Hit RayTracer::State::hitAt(std::uint32_t triangle, const glm::dvec2& barycentri
     // a + differences, not a weighted sum: on an axis-aligned plane the coordinate then comes out exactly.
     hit.position = a + u * (b - a) + v * (c - a);
     const glm::dvec3 n = glm::cross(b - a, c - a);
+    hit.edgeDistance = distanceToEdges(hit.position, {a, b, c});
     hit.geometricNormal = glm::length(n) > 0.0 ? glm::normalize(n) : glm::dvec3(0, 1, 0);
     const glm::dvec3 shading = (1.0 - u - v) * glm::dvec3(scene.normals[i[0]]) +
                                u * glm::dvec3(scene.normals[i[1]]) + v * glm::dvec3(scene.normals[i[2]]);
@@ -240,40 +254,38 @@ Hit RayTracer::nearest(const Ray& ray, int ignorePart) const {
     return state_->hitAt(triangle, exactBarycentrics(ray, query.triangle(triangle), fallback));
 }
 
-/// The float ray that Embree gets. Its origin is lifted off the surface by 16 float ulps of the largest
-/// coordinate in play; from there it aims at the target, but begins 256 ulps further back and ends further
-/// on. Rounding moves an end by at most half an ulp along each axis. Lifted by L of them, the ray cannot slip
-/// under an occluder that stands on the surface, unless it meets it at a grazing angle below 1/(2L) rad
-/// within a few ulps of where it starts; begun further back, it cannot start beyond one. The price is a
-/// silhouette that is moved by at most L ulps: 2e-6 of the scene's size. Whoever needs it exacter asks
-/// ExactScene, as the truth pictures do.
+/// One float ulp of the largest coordinate in play.
+static double ulpOf(const ShadowRay& ray, double reach) {
+    return 0x1p-23 * std::max(reach, largestCoordinate(ray.origin));
+}
+
+/// The float ray that Embree gets. Its origin is lifted off the surface by 16 float ulps; from there it aims
+/// at the target, but begins 12 ulps further back (still off the surface, so that the surface itself is not
+/// met again and again) and ends further on. Rounding moves an end by at most half an ulp along each axis. So
+/// lifted, the ray cannot slip under an occluder that stands on the surface, and begun further back it cannot
+/// start beyond one, unless it meets it at a grazing angle below 1/24 within a few ulps of where it starts.
+/// The price is a silhouette that is moved by at most 16 ulps, 2e-6 of the scene's size. Who needs it exacter
+/// asks ExactScene, as the truth pictures do.
 static RTCRay floatRay(const ShadowRay& ray, double reach, unsigned id) {
-    const double ulp = 0x1p-23 * std::max(reach, largestCoordinate(ray.origin));
+    const double ulp = ulpOf(ray, reach);
     const glm::dvec3 exactDirection = ray.towardsInfinity ? ray.target : ray.target - ray.origin;
     const double lift = glm::dot(exactDirection, ray.normal) < 0.0 ? -16.0 * ulp : 16.0 * ulp;
-    const double back = 256.0 * ulp;
     const glm::dvec3 lifted = ray.origin + lift * ray.normal;
     const glm::dvec3 direction = ray.towardsInfinity ? ray.target : ray.target - lifted;
-    const double length = glm::length(direction);
-    const glm::dvec3 unit = direction * (1.0 / length);
-    const glm::vec3 o(lifted - back * unit), d(unit);
-    const float far =
-        ray.towardsInfinity ? std::numeric_limits<float>::infinity() : float(length + 2.0 * back);
+    const glm::vec3 d(direction);
+    const float length2 = glm::dot(d, d);
+    const double back = 12.0 * ulp / double(std::sqrt(length2));  // in units of the direction's length
+    const glm::vec3 o(lifted - back * direction);
+    const float far = ray.towardsInfinity ? std::numeric_limits<float>::infinity() : float(1.0 + 4.0 * back);
     // A ray of no length has nothing strictly between its ends; a negative far end tells Embree to leave it
     // out.
-    return {o.x, o.y, o.z, 0.0f, d.x, d.y, d.z, 0.0f, length > 0.0 ? far : -1.0f, 0xffffffffu, id, 0};
+    return {o.x, o.y, o.z, 0.0f, d.x, d.y, d.z, 0.0f, length2 > 0.0f ? far : -1.0f, 0xffffffffu, id, 0};
 }
 
 /// Is the origin so near to an edge of its triangle that the lifted ray may start beyond the neighbour across
 /// a fold?
-static bool nearOwnEdge(const ShadowRay& ray, double reach, const std::array<glm::dvec3, 3>& triangle) {
-    const double margin = 64.0 * 0x1p-23 * std::max(reach, largestCoordinate(ray.origin));
-    for (int i = 0; i < 3; ++i) {
-        const glm::dvec3 edge = triangle[std::size_t((i + 1) % 3)] - triangle[std::size_t(i)];
-        const glm::dvec3 away = glm::cross(edge, ray.origin - triangle[std::size_t(i)]);
-        if (glm::dot(away, away) <= margin * margin * glm::dot(edge, edge)) return true;
-    }
-    return false;
+static bool nearOwnEdge(const ShadowRay& ray, double reach) {
+    return ray.triangle != ShadowRay::noTriangle && ray.edgeDistance <= 128.0 * ulpOf(ray, reach);
 }
 
 void RayTracer::State::traceOne(const ShadowRay& ray, std::uint8_t& blocked, Query& query) const {
@@ -334,23 +346,29 @@ void RayTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t
         }
         for (std::size_t i = 0; i < packet.size(); ++i) {
             if (blocked[first + i]) continue;
-            const bool settled = !query.doubtful[i] &&
-                                 (packet[i].triangle == ShadowRay::noTriangle ||
-                                  !nearOwnEdge(packet[i], state_->reach, query.triangle(packet[i].triangle)));
-            if (!settled) blocked[first + i] = state_->occludedExactly(packet[i], ignorePart) ? 1 : 0;
+            if (query.doubtful[i]) {
+                blocked[first + i] = state_->occludedExactly(packet[i], ignorePart, 1.0) ? 1 : 0;
+            } else if (nearOwnEdge(packet[i], state_->reach)) {
+                // Only the first stretch is in doubt: 4096 ulps, a short walk through the hierarchy.
+                const glm::dvec3 whole =
+                    packet[i].towardsInfinity ? packet[i].target : packet[i].target - packet[i].origin;
+                const double stretch = 4096.0 * ulpOf(packet[i], state_->reach) / glm::length(whole);
+                blocked[first + i] =
+                    state_->occludedExactly(packet[i], ignorePart, std::min(1.0, stretch)) ? 1 : 0;
+            }
         }
     }
 }
 
 bool RayTracer::occluded(const Hit& from, const glm::dvec3& target, int ignorePart) const {
-    const ShadowRay ray{from.position, from.triangle, false, from.geometricNormal, target};
+    const ShadowRay ray = ShadowRay::from(from, target);
     std::uint8_t blocked = 0;
     occluded(std::span(&ray, 1), std::span(&blocked, 1), ignorePart);
     return blocked != 0;
 }
 
 bool RayTracer::occludedTowards(const Hit& from, const glm::dvec3& direction, int ignorePart) const {
-    const ShadowRay ray{from.position, from.triangle, true, from.geometricNormal, direction};
+    const ShadowRay ray = ShadowRay::from(from, direction, true);
     std::uint8_t blocked = 0;
     occluded(std::span(&ray, 1), std::span(&blocked, 1), ignorePart);
     return blocked != 0;

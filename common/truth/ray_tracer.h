@@ -1,12 +1,13 @@
 // The reference ray tracer: Embree (3 or 4) behind three questions. Checked against the closed forms in
 // tests/unit.
 //
-// Self-intersection is handled without an epsilon to tune. Embree sees float rays; its answers are only candidates. A
-// shadow ray is begun behind its surface point and lifted off the surface, both by a few times what float rounding can do
-// to it (floatRay in ray_tracer.cpp), so that whatever touches the point is found; and every candidate is decided again in
-// double from the exact segment and the exact triangle: the triangle the point lies on never counts, and another counts
-// only if its plane has the two ends on different sides, by more than the rounding bound of the double computation
-// itself. With an offset alone, one would see light leak in where a wall stands on the ground, or acne.
+// Self-intersection is handled without an epsilon to tune. Embree sees float rays; its answers are only
+// candidates. A shadow ray is begun behind its surface point and lifted off the surface, both by a few times
+// what float rounding can do to it (floatRay in ray_tracer.cpp), so that whatever touches the point is found;
+// and every candidate is decided again in double from the exact segment and the exact triangle: the triangle
+// the point lies on never counts, and another counts only if its plane has the two ends on different sides,
+// by more than the rounding bound of the double computation itself. With an offset alone, one would see light
+// leak in where a wall stands on the ground, or acne.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +33,7 @@ struct Hit {
     glm::dvec3 shadingNormal{0.0};    ///< unit, interpolated
     glm::dvec2 uv{0.0};
     glm::dvec2 barycentric{0.0};
+    double edgeDistance = 0.0;  ///< metres to the nearest edge of the triangle; 0: not known
 };
 
 /// One shadow ray of a batch: from a point of `triangle` to `target`, or towards infinity along `target` (any
@@ -40,11 +42,17 @@ struct ShadowRay {
     static constexpr std::uint32_t noTriangle = 0xffffffffu;
 
     glm::dvec3 origin{0.0};
-    std::uint32_t triangle =
-        noTriangle;  ///< the triangle the origin lies on, which never blocks; noTriangle: in free space
-    bool towardsInfinity = false;
-    glm::dvec3 normal{0.0};  ///< unit normal of that triangle, either side; 0: in free space
     glm::dvec3 target{0.0};  ///< a point, or a direction if towardsInfinity
+    glm::dvec3 normal{0.0};  ///< unit normal of the triangle, either side; 0: in free space
+    double edgeDistance =
+        0.0;  ///< of the origin from the edges of its triangle; 0: not known, which is right but slow
+    std::uint32_t triangle =
+        noTriangle;  ///< on which the origin lies, and which never blocks; noTriangle: in free space
+    bool towardsInfinity = false;
+
+    static ShadowRay from(const Hit& hit, const glm::dvec3& target, bool towardsInfinity = false) {
+        return {hit.position, target, hit.geometricNormal, hit.edgeDistance, hit.triangle, towardsInfinity};
+    }
 };
 
 class RayTracer {

@@ -50,7 +50,7 @@ std::vector<ShadowRay> shadowRays(int perPoint) {
         if (perPoint > 1 && pixel % std::uint32_t(perPoint) != 0) continue;
         for (int i = 0; i < perPoint; ++i) {
             const glm::dvec2 u = perPoint > 1 ? owenSobol(std::uint32_t(i), pixel) - 0.5 : glm::dvec2(0.0);
-            rays.push_back({hit.position, hit.triangle, false, hit.geometricNormal, {3.0 + u.x, 1.5, u.y}});
+            rays.push_back(ShadowRay::from(hit, {3.0 + u.x, 1.5, u.y}));
         }
     }
     return rays;

@@ -106,6 +106,7 @@ std::size_t falseHits(const Scene& scene, std::size_t count, std::uint64_t seed)
         const double u = random() % 3 == 0 ? std::exp(-18.0 * uniform(random)) : uniform(random);
         ray.origin = pointOn(scene, ray.triangle, u, uniform(random) * (1.0 - u));
         const glm::dvec3 n = ray.normal = faceNormal(scene, ray.triangle);
+        ray.edgeDistance = edgeDistance(scene, ray.triangle, ray.origin);
         glm::dvec3 d = randomDirection(random);
         if (glm::dot(d, n) < 0.0) d = -d;
         if (random() % 4 == 0) d = glm::normalize(d + (1e-5 - glm::dot(d, n)) * n);  // grazing
@@ -147,6 +148,7 @@ Disagreement compareWithExact(const Scene& scene, std::size_t count, std::uint64
         ray.triangle = std::uint32_t(random() % scene.triangleCount());
         ray.origin = pointOn(scene, ray.triangle, uniform(random), uniform(random));
         ray.normal = faceNormal(scene, ray.triangle);
+        ray.edgeDistance = edgeDistance(scene, ray.triangle, ray.origin);
         const glm::dvec3 d = randomDirection(random);
         if (glm::dot(d, ray.normal) < 0.0) ray.normal = -ray.normal;
         ray.target = ray.origin + d * 2.0 * scene.bounds.radius() * uniform(random);
@@ -208,6 +210,7 @@ std::size_t leaksAtContact(const Place& place, std::size_t count, std::uint64_t 
         from.position = a + (0.25 + 0.5 * uniform(random)) * along + gap * out;
         from.triangle = 0;
         from.geometricNormal = faceNormal(scene, 0);
+        from.edgeDistance = edgeDistance(scene, 0, from.position);
         const glm::dvec3 target = from.position - out * (gap + glm::length(up) * (0.05 + uniform(random))) +
                                   up * (0.02 + 0.9 * uniform(random)) + along * (0.2 * uniform(random) - 0.1);
         // Only where the segment passes below the top of the wall.
@@ -237,6 +240,7 @@ TEST(Occluded, BatchAndSingleRaysAgree) {
         ray.triangle = std::uint32_t(random() % scene.triangleCount());
         ray.origin = pointOn(scene, ray.triangle, uniform(random), uniform(random));
         ray.normal = faceNormal(scene, ray.triangle);
+        ray.edgeDistance = edgeDistance(scene, ray.triangle, ray.origin);
         ray.target = randomDirection(random);
         ray.towardsInfinity = random() % 2 == 0;
     }
@@ -247,6 +251,7 @@ TEST(Occluded, BatchAndSingleRaysAgree) {
         from.position = rays[i].origin;
         from.triangle = rays[i].triangle;
         from.geometricNormal = rays[i].normal;
+        from.edgeDistance = rays[i].edgeDistance;
         const bool single = rays[i].towardsInfinity ? tracer.occludedTowards(from, rays[i].target)
                                                     : tracer.occluded(from, rays[i].target);
         EXPECT_EQ(blocked[i] != 0, single);

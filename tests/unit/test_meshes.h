@@ -29,7 +29,7 @@ inline Scene emptyScene() {
     return scene;
 }
 
-/// Adds an indexed mesh as one part; shading normals are those of the first face of each vertex.
+/// Adds an indexed mesh as one part; the shading normal of a vertex is the mean of its faces'.
 inline void addPart(Scene& scene, const std::vector<glm::dvec3>& points,
                     const std::vector<std::uint32_t>& indices, const Place& place) {
     Part part;
@@ -42,12 +42,13 @@ inline void addPart(Scene& scene, const std::vector<glm::dvec3>& points,
         scene.bounds.extend(glm::dvec3(rounded));
         part.bounds.extend(glm::dvec3(rounded));
     }
-    std::vector<glm::vec3> normals(points.size(), glm::vec3(0, 1, 0));
+    std::vector<glm::vec3> normals(points.size(), glm::vec3(0.0f));
     for (std::size_t i = 0; i < indices.size(); i += 3) {
         const glm::dvec3 &a = points[indices[i]], &b = points[indices[i + 1]], &c = points[indices[i + 2]];
         for (int k = 0; k < 3; ++k)
-            normals[indices[i + std::size_t(k)]] = glm::vec3(glm::normalize(glm::cross(b - a, c - a)));
+            normals[indices[i + std::size_t(k)]] += glm::vec3(glm::normalize(glm::cross(b - a, c - a)));
     }
+    for (glm::vec3& n : normals) n = glm::normalize(n);
     scene.normals.insert(scene.normals.end(), normals.begin(), normals.end());
     scene.uvs.resize(scene.positions.size(), glm::vec2(0.0f));
     for (const std::uint32_t i : indices) scene.indices.push_back(base + i);
@@ -128,6 +129,17 @@ inline glm::dvec3 faceNormal(const Scene& scene, std::uint32_t t) {
     const glm::dvec3 a(scene.positions[scene.indices[3 * t]]), b(scene.positions[scene.indices[3 * t + 1]]),
         c(scene.positions[scene.indices[3 * t + 2]]);
     return glm::normalize(glm::cross(b - a, c - a));
+}
+
+/// Of a point of triangle `t` from its nearest edge.
+inline double edgeDistance(const Scene& scene, std::uint32_t t, const glm::dvec3& p) {
+    double least = 1e300;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const glm::dvec3 a(scene.positions[scene.indices[3 * t + i]]);
+        const glm::dvec3 b(scene.positions[scene.indices[3 * t + (i + 1) % 3]]);
+        least = std::min(least, glm::length(glm::cross(b - a, p - a)) / glm::length(b - a));
+    }
+    return least;
 }
 
 inline glm::dvec3 randomDirection(std::mt19937_64& random) {
