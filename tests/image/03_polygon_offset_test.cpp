@@ -76,11 +76,11 @@ INSTANTIATE_TEST_SUITE_P(Chapter03, DerivedBound, testing::Values("16", "24", "3
 class AgainstTruth : public testing::TestWithParam<std::string> {};
 
 /// What is left is the staircase of the shadow's edge (chapter 04's subject): a share of the pixels that
-/// grows with the length of edges in them. Leaves and railings are nearly all edge. Measured 0.0007, 0.0008,
-/// 0.0013 and 0.012, with reserve.
+/// grows with the length of edges in them, as many too dark as too light. Measured, and half as much again.
 double errorBound(const std::string& scene) {
-    if (scene == "courtyard") return 0.025;
-    return scene == thirdPartyModel ? 0.02 : 0.003;
+    if (scene == "heckbert_herf") return 1.5 * 0.0007;
+    if (scene == "contact") return 1.5 * 0.0039;
+    return 1.5 * 0.0081;  // courtyard: leaves and railings; the engine: concave tubes finer than a texel
 }
 
 TEST_P(AgainstTruth, OnlyTheEdgesOfShadowsAreWrong) {
@@ -89,7 +89,7 @@ TEST_P(AgainstTruth, OnlyTheEdgesOfShadowsAreWrong) {
     const TruthImage truth = harness.truth("visibility", size);
     expectImage("03_polygon_offset/" + shortName(GetParam()) + "/visibility",
                 harness.scalar("visibility", size), truth.value, truth.mask,
-                {.meanAbs = errorBound(GetParam()), .absBias = errorBound(GetParam()) / 2});
+                {.meanAbs = errorBound(GetParam()), .absBias = 0.6 * errorBound(GetParam())});
 }
 INSTANTIATE_TEST_SUITE_P(Chapter03, AgainstTruth, testing::ValuesIn(testScenes()), sceneTestName);
 
@@ -129,7 +129,7 @@ TEST(Chapter03, FrontFaceCullingAndMidpointNeedClosedParts) {
 /// Share of |map - exact| in what section "Hard shadows" predicts for random edges, averaged over sub-texel
 /// positions.
 double misAreaOverPredicted(double angle, int mapSize, int phases, double* misArea = nullptr) {
-    constexpr int pixels = 512;
+    constexpr int pixels = 256;
     const glm::dvec3 light(0, 4, 0);
     const glm::dvec3 along(std::cos(angle), 0, std::sin(angle)), across(-std::sin(angle), 0, std::cos(angle));
     double measured = 0, predicted = 0;
