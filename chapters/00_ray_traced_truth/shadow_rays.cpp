@@ -14,6 +14,7 @@ ShadowRay shadowRay(const Hit& hit, const Light& light, const LightSample& sampl
     if (options.start == "rounded") {
         ray.origin = glm::dvec3(glm::vec3(hit.position));
         ray.triangle = ShadowRay::noTriangle;
+        ray.normal = glm::dvec3(0.0);
     }
     return ray;
 }

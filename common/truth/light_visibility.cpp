@@ -35,12 +35,14 @@ std::vector<glm::dvec3> above(const glm::dvec3& x, const glm::dvec3& n,
 /// geometric factor of Lambert's formula.
 double sampledShare(const RayTracer& tracer, const Hit& hit, const Light& light,
                     const std::vector<glm::dvec3>& polygon, std::uint32_t seed) {
-    constexpr std::uint32_t count = 4096, batch = 64;
+    constexpr std::uint32_t probe = 256, batch = 64;
+    const auto count = std::max(probe, std::uint32_t(4096 / light.polygons.size()));
     std::array<ShadowRay, batch> rays;
     std::array<double, batch> weights;
     std::array<std::uint8_t, batch> blocked;
     double visible = 0.0, all = 0.0;
     for (std::uint32_t first = 0; first < count; first += batch) {
+        if (first == probe && (visible == 0.0 || visible == all)) break;  // the first ones agree
         for (std::uint32_t i = 0; i < batch; ++i) {
             const glm::dvec3 p = pointInPolygon(polygon, owenSobol(first + i, seed));
             const glm::dvec3 toLight = p - hit.position;
