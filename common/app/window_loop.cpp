@@ -70,7 +70,7 @@ class WindowLoop {
     int run() {
         renderPicture();  // the first frame must work
         while (!glfwWindowShouldClose(window_)) {
-            if (needsPicture() || state_.redrawAlways) {
+            if (isVisible() && (needsPicture() || state_.redrawAlways)) {
                 glfwPollEvents();
             } else {
                 glfwWaitEventsTimeout(idleSeconds);
@@ -81,6 +81,7 @@ class WindowLoop {
     }
 
  private:
+    bool isVisible() const { return framebufferSize(window_) != glm::ivec2(0); }  // else minimised
     bool needsPicture() const { return changed_ || divisor_ > 1 || framebufferSize(window_) != drawnSize_; }
 
     void frame() {
@@ -91,10 +92,9 @@ class WindowLoop {
         reloadShaders();
         state_.error = errors();
         changed_ |= drawPanel(session_, state_);
-        const glm::ivec2 size = framebufferSize(window_);
-        if (size.x > 0 && size.y > 0) {
+        if (isVisible()) {
             if (needsPicture() || state_.redrawAlways) tryPicture();
-            picture_.present(size);
+            picture_.present(framebufferSize(window_));
         }
         imgui_.draw();
         glfwSwapBuffers(window_);
@@ -132,7 +132,9 @@ class WindowLoop {
         lastLook_ = now;
         for (Program* program : session_.chapter().programs()) {
             if (!program || !program->sourcesChanged()) continue;
-            shaderErrors_[program] = program->reload();  // on an error the last good program goes on drawing
+            std::string& error = shaderErrors_[program];
+            error = program->reload();  // if it fails, the last good program goes on drawing
+            fmt::print(stderr, "{}\n", error.empty() ? "shaders loaded again" : error);
             changed_ = true;
         }
     }
