@@ -38,14 +38,13 @@ class ShadowTest : public Chapter {
 
         // Pass 2: the picture, each fragment compared with the map.
         const PassScope scope(frame.passTimer, "shading");
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        clearPicture(frame, options_);
         if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
         glEnable(GL_DEPTH_TEST);
         setCameraAndLight(*shadowed_, frame, options_);
         setShadowMap(*shadowed_, map, frustum, light, outside_);
         shadowed_->set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
-        frame.gpu->drawShaded(*shadowed_, seenByCamera(frame));
+        drawPicture(*shadowed_, frame);
         // [end:passes]
     }
 
