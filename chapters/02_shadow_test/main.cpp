@@ -32,8 +32,7 @@ class ShadowTest : public Chapter {
         // Pass 1: the scene from the light, depth alone (chapter 01).
         ShadowMap& map = options_.provide(map_, frame.context->capabilities());
         const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum frustum = fitLightFrustum(
-            frame.scene, light, frame.camera, double(frame.size.x) / frame.size.y, depthRange(map.format()));
+        const LightFrustum& frustum = options_.frustum(frame, map);
         map.render(*depth_, frame, light, frustum);
 
         // Pass 2: the picture, each fragment compared with the map.

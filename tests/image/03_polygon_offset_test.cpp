@@ -147,6 +147,7 @@ double misAreaOverPredicted(double angle, int mapSize, int phases, double* misAr
                                 .take();
         ChapterHarness harness(chapter(), scene);
         harness.set("map-size", std::to_string(mapSize));
+        harness.set("fit", "view");  // the map's axes and borders are the picture's
         const FloatImage visibility = harness.scalar("visibility", glm::ivec2(pixels));
 
         const PlanarReceiver receiver{{-0.5, 0, 0.5}, {1, 0, 0}, {0, 0, -1}};
@@ -158,7 +159,7 @@ double misAreaOverPredicted(double angle, int mapSize, int phases, double* misAr
                 measured += std::abs((1.0 - visibility.at(x, y)) - coverage) / (double(pixels) * pixels);
             }
         }
-        double length = 0;  // of the shadow's boundary inside the picture; the map's axes are the picture's
+        double length = 0;  // of the shadow's boundary inside the picture
         for (int i = 0; i < shadow.count; ++i) {
             const glm::dvec2 a = shadow[i], b = shadow[shadow.next(i)];
             const auto onBorder = [&](int axis, double border) {
@@ -198,7 +199,7 @@ TEST(Chapter03, LightLeaksUnderTheWallByTheBiasAndNoMore) {
         ChapterHarness harness(chapter(), scene);
         harness.set("depth-format", format);
         harness.set("map-size", "512");
-        const LightFrustum frustum = fitLightFrustum(scene, scene.lights[0], harness.camera, 1.0);
+        const LightFrustum frustum = fitLightFrustum(scene, scene.lights[0]);
         const double eyeDepth = frustum.axisDistance({0, 0, 0});
         const double texel = frustum.texelSize(eyeDepth, 512).y * std::sqrt(2.0);  // on ground at 45 degrees
         // B at the foot of the wall, window depth -> metres along the light -> metres along the ground.
