@@ -40,7 +40,7 @@ std::optional<int> runInWindow(ChapterSession& session) {
 }
 
 int run(const ChapterInfo& info, const std::function<std::unique_ptr<Chapter>()>& make, int argc,
-         char** argv) {
+        char** argv) {
     const Clock::time_point start = Clock::now();
     Parameters parameters;
     std::unique_ptr<Chapter> chapter = make();

@@ -13,29 +13,48 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// What is rounded to float first; all else is float arithmetic, four or more rays at a time.
 struct Rounded {
-    alignas(64) float normalX[lanes], normalY[lanes],
-        normalZ[lanes];  ///< towards the side that the ray is on
+    alignas(64) float normalX[lanes], normalY[lanes], normalZ[lanes];
+    alignas(64) float side[lanes];  ///< 1: the ray is on the normal's side; -1: on the other
     alignas(
         64) float aims[lanes];  ///< 1: the target is a point, and the lifted ray aims at it; 0: a direction
     alignas(64) float edgeDistance[lanes];
 };
 
-/// Differences and the side of the surface are decided in double: on the wrong side the ray would slip under
-/// whatever stands on the surface.
-void roundOne(const ShadowRay& ray, unsigned i, ShadowPacket& packet, Rounded& rounded) {
-    const glm::dvec3 d = ray.towardsInfinity ? ray.target : ray.target - ray.origin;
-    const double side = glm::dot(d, ray.normal) < 0.0 ? -1.0 : 1.0;
-    packet.directionX[i] = float(d.x), packet.directionY[i] = float(d.y), packet.directionZ[i] = float(d.z);
+void roundStart(const ShadowRay& ray, unsigned i, ShadowPacket& packet, Rounded& rounded) {
     packet.originX[i] = float(ray.origin.x);
     packet.originY[i] = float(ray.origin.y);
     packet.originZ[i] = float(ray.origin.z);
-    packet.end[i] = ray.towardsInfinity ? infinity : 1.0f;
     packet.ownTriangle[i] = ray.triangle;
-    rounded.normalX[i] = float(side * ray.normal.x);
-    rounded.normalY[i] = float(side * ray.normal.y);
-    rounded.normalZ[i] = float(side * ray.normal.z);
-    rounded.aims[i] = ray.towardsInfinity ? 0.0f : 1.0f;
+    rounded.normalX[i] = float(ray.normal.x);
+    rounded.normalY[i] = float(ray.normal.y);
+    rounded.normalZ[i] = float(ray.normal.z);
     rounded.edgeDistance[i] = ray.triangle == ShadowRay::noTriangle ? infinity : float(ray.edgeDistance);
+}
+
+/// Differences and the side of the surface are decided in double: on the wrong side the ray would slip under
+/// whatever stands on the surface.
+void roundEnd(const ShadowRay& ray, unsigned i, ShadowPacket& packet, Rounded& rounded) {
+    const glm::dvec3 d = ray.towardsInfinity ? ray.target : ray.target - ray.origin;
+    rounded.side[i] = glm::dot(d, ray.normal) < 0.0 ? -1.0f : 1.0f;
+    packet.directionX[i] = float(d.x), packet.directionY[i] = float(d.y), packet.directionZ[i] = float(d.z);
+    packet.end[i] = ray.towardsInfinity ? infinity : 1.0f;
+    rounded.aims[i] = ray.towardsInfinity ? 0.0f : 1.0f;
+}
+
+/// The rays from one point to the points of an area light: what belongs to the start is rounded once.
+bool startTogether(std::span<const ShadowRay> rays) {
+    const ShadowRay& first = rays.front();
+    return first.triangle != ShadowRay::noTriangle &&
+           std::all_of(rays.begin() + 1, rays.end(), [&first](const ShadowRay& ray) {
+               return ray.triangle == first.triangle && ray.origin == first.origin;
+           });
+}
+
+/// All rays the start of the first; plain loops, which the compiler turns into a few wide stores.
+void spreadStart(ShadowPacket& p, Rounded& r) {
+    for (float* lane : {p.originX, p.originY, p.originZ, r.normalX, r.normalY, r.normalZ, r.edgeDistance})
+        std::fill_n(lane + 1, lanes - 1, lane[0]);
+    std::fill_n(p.ownTriangle + 1, lanes - 1, p.ownTriangle[0]);
 }
 
 /// By value: a choice between references is a branch.
@@ -48,7 +67,7 @@ void liftAndPullBack(float reach, ShadowPacket& p, const Rounded& rounded) {
     for (unsigned i = 0; i < lanes; ++i) {
         const float x0 = std::abs(p.originX[i]), y0 = std::abs(p.originY[i]), z0 = std::abs(p.originZ[i]);
         const float largest = larger(larger(reach, x0), larger(y0, z0));
-        const float ulp = 0x1p-23f * largest, lift = 16.0f * ulp;
+        const float ulp = 0x1p-23f * largest, lift = 16.0f * ulp * rounded.side[i];
         const float liftX = lift * rounded.normalX[i], liftY = lift * rounded.normalY[i],
                     liftZ = lift * rounded.normalZ[i];
         const float x = p.directionX[i] - rounded.aims[i] * liftX;
@@ -70,7 +89,16 @@ void liftAndPullBack(float reach, ShadowPacket& p, const Rounded& rounded) {
 
 void roundToFloat(std::span<const ShadowRay> rays, double reach, ShadowPacket& packet) {
     Rounded rounded;
-    for (unsigned i = 0; i < lanes; ++i) roundOne(rays[i < rays.size() ? i : 0], i, packet, rounded);
+    const bool together = startTogether(rays);
+    if (together) {
+        roundStart(rays.front(), 0, packet, rounded);
+        spreadStart(packet, rounded);
+    }
+    for (unsigned i = 0; i < lanes; ++i) {
+        const ShadowRay& ray = rays[i < rays.size() ? i : 0];
+        if (!together) roundStart(ray, i, packet, rounded);
+        roundEnd(ray, i, packet, rounded);
+    }
     liftAndPullBack(float(reach), packet, rounded);
     packet.nearOwnEdge = 0;
     for (unsigned i = 0; i < rays.size(); ++i)
