@@ -13,7 +13,7 @@ int stepped(int value, const Parameter& parameter, int direction) {
     const double range = parameter.high - parameter.low;
     double next = value + direction;
     if (isLogarithmic(parameter)) {
-        next = direction > 0 ? 2.0 * value : value / 2;
+        next = direction > 0 ? 2.0 * value : std::floor(0.5 * value);
     } else if (range > 2.0 * steps) {
         next = value + direction * std::round(range / steps);
     }

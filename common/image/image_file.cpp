@@ -36,13 +36,13 @@ std::string oneLine(std::string text) {
     return text.empty() ? "unknown format" : text;
 }
 
-OIIO::ImageSpec specOf(const FloatImage& image, OIIO::TypeDesc type) {
+OIIO::ImageSpec specOf(const FloatImage& image, const OIIO::TypeDesc& type) {
     return OIIO::ImageSpec(image.width, image.height, image.channels, type);
 }
 
 /// Encodes into memory: what reaches the disk is then one write of a finished file.
-std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels,
-                   const std::filesystem::path& file) {
+std::string encode(const char* format, const OIIO::ImageSpec& spec, const OIIO::TypeDesc& type,
+                   const void* pixels, const std::filesystem::path& file) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     auto output = OIIO::ImageOutput::create(format);
@@ -112,7 +112,7 @@ class OpenPicture {
     OpenPicture& operator=(const OpenPicture&) = delete;
 
     const OIIO::ImageSpec& spec() const { return input_->spec(); }
-    void readInto(OIIO::TypeDesc type, void* pixels) {
+    void readInto(const OIIO::TypeDesc& type, void* pixels) {
         if (!input_->read_image(0, 0, 0, -1, type, pixels))
             throw Error(fmt::format("{}: damaged picture: {}", name_, oneLine(input_->geterror())));
     }
@@ -125,7 +125,7 @@ class OpenPicture {
 };
 
 bool isSrgbEncoded(const OIIO::ImageSpec& spec) {
-    return spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16;
+    return spec.format.basetype == OIIO::TypeDesc::UINT8 || spec.format.basetype == OIIO::TypeDesc::UINT16;
 }
 
 void decodeColour(FloatImage& image) {

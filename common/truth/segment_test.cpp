@@ -26,7 +26,7 @@ int side(const glm::dvec3& n, const glm::dvec3& nMagnitude, const glm::dvec3& fr
 }  // namespace
 
 Crossing crossTriangle(const Segment& segment, const std::array<glm::dvec3, 3>& triangle) {
-    const auto& [a, b, c] = triangle;
+    const glm::dvec3 &a = triangle[0], &b = triangle[1], &c = triangle[2];
     const glm::dvec3 n = glm::cross(b - a, c - a);
     const glm::dvec3 nMagnitude = crossMagnitude(b - a, c - a);
     const auto sideOfPoint = [&](const glm::dvec3& p) {

@@ -92,7 +92,7 @@ TEST(ExactScene, ImageOfHeckbertAndHerf) {
     double sum = 0.0;
     for (int row = 0; row < size.y; ++row)
         for (int column = 0; column < size.x; ++column) {
-            const double value = image[std::size_t(row * size.x + column)];
+            const double value = image[std::size_t(row) * std::size_t(size.x) + std::size_t(column)];
             const dvec3 x(-1.2 + 2.4 * (column + 0.5) / size.x, -1.2 + 2.4 * (row + 0.5) / size.y, 0);
             EXPECT_NEAR(value, visibleFormFactor(x, up, light, {&occluder, 1}), 1e-14)
                 << column << ',' << row;

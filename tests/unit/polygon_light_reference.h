@@ -69,8 +69,9 @@ inline double sampledFormFactor(const glm::dvec3& x, const glm::dvec3& normal,
     const glm::dvec3 areaVector = glm::cross(u, v);
     double sum = 0.0;
     for (int i = 0; i < n * n; ++i) {
+        const int column = i % n, row = i / n;
         const glm::dvec3 d =
-            light[0] + u * ((i % n + uniform(random)) / n) + v * ((i / n + uniform(random)) / n) - x;
+            light[0] + u * ((column + uniform(random)) / n) + v * ((row + uniform(random)) / n) - x;
         const double cosines = glm::dot(normal, d) * -glm::dot(areaVector, d);
         if (glm::dot(normal, d) <= 0.0 || cosines <= 0.0) continue;
         bool blocked = false;

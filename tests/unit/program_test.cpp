@@ -264,7 +264,7 @@ TEST_P(ProgramTest, Moves) {
     Program first("full.vert", "m.frag");
     Program second(std::move(first));
     EXPECT_EQ(draw(second).x, 7.0f);
-    EXPECT_EQ(first.id(), 0u);
+    EXPECT_EQ(first.id(), 0u);  // NOLINT(bugprone-use-after-move): that it is empty is what is tested
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, ProgramTest, allContextKinds(), contextKindName);
