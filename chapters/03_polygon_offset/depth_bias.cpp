@@ -63,4 +63,11 @@ CasterDraw casterDraw(BiasMethod method, const ShadowMap& map, const LightFrustu
 }
 // [end:caster-draw]
 
+void setDepthErrors(Program& program, const DepthErrors& errors) {
+    program.set("uQuantum", errors.quantum);
+    program.set("uSnap", errors.snap);
+    program.set("uRounding", errors.rounding);
+    program.set("uRasterError", errors.rasterError);
+}
+
 }  // namespace penumbra

@@ -37,4 +37,7 @@ float constantBias(const LightFrustum& frustum, int mapSize);
 CasterDraw casterDraw(BiasMethod method, const ShadowMap& map, const LightFrustum& frustum,
                       const DepthErrors& errors, float scale);
 
+/// Sets the uniforms of bias.glsl.
+void setDepthErrors(Program& program, const DepthErrors& errors);
+
 }  // namespace penumbra

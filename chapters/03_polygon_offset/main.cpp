@@ -92,10 +92,7 @@ class PolygonOffset : public Chapter {
         biased_->set("uMethod", int(method));
         biased_->set("uBias", bias_);
         biased_->set("uConstantBias", constant);
-        biased_->set("uQuantum", errors.quantum);
-        biased_->set("uSnap", errors.snap);
-        biased_->set("uRounding", errors.rounding);
-        biased_->set("uRasterError", errors.rasterError);
+        setDepthErrors(*biased_, errors);
     }
 
     ShadowOptions options_;
