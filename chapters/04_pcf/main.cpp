@@ -5,9 +5,9 @@
 // lit or dark, and the share of those that say lit is the visibility. The edge becomes a ramp n texels wide.
 #include "chapters/01_depth_from_light/depth_view.h"
 #include "chapters/02_shadow_test/shadow_test.h"
-#include "chapters/03_polygon_offset/depth_bias.h"
 #include "chapters/04_pcf/compare_sampler.h"
 #include "chapters/04_pcf/filter_truth.h"
+#include "chapters/04_pcf/receiver_bias.h"
 #include "common/app/pass_timer.h"
 #include "common/error.h"
 
@@ -26,11 +26,7 @@ class Pcf : public Chapter {
                        "each test is four, blended by the sampler: no steps in the ramp");
         parameters.add("filter", filter_, {"tests", "depths"},
                        "what is averaged; depths: still a hard edge, and a wrong one (never bilinear)");
-        parameters.add(
-            "receiver-plane", receiverPlane_,
-            "compare each tap with the receiver's plane instead of widening the bias with the kernel");
-        parameters.add("bias", bias_, 0.0f, 32.0f, "",
-                       "multiple of the derived bound; 0: stripes of acne, 8: shadows detach");
+        bias_.declare(parameters);
     }
 
     void load(const Scene&, const Context*) override {
@@ -57,7 +53,7 @@ class Pcf : public Chapter {
         glEnable(GL_DEPTH_TEST);
         setCameraAndLight(*filtered_, frame, options_);
         setShadowMap(*filtered_, map, frustum, light, outside_);
-        setDepthErrors(*filtered_, bothPassesErrors(map, frustum, frame.scene.bounds));
+        bias_.set(*filtered_, map, frustum, frame.scene);
         setFilter(map);
         filtered_->set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
         drawPicture(*filtered_, frame);
@@ -90,16 +86,14 @@ class Pcf : public Chapter {
         filtered_->set("uKernelWidth", kernelWidth_);
         filtered_->set("uBilinear", bilinear_);
         filtered_->set("uFilterDepths", filter_ == "depths");
-        filtered_->set("uFollowPlane", receiverPlane_ ? 1.0f : 0.0f);
-        filtered_->set("uBias", bias_);
     }
     // [end:filter]
 
     ShadowOptions options_;
     std::string outside_ = "lit", filter_ = "tests";
     int kernelWidth_ = 3;
-    bool bilinear_ = false, receiverPlane_ = false;
-    float bias_ = 1.0f;
+    bool bilinear_ = false;
+    ReceiverBias bias_;
     std::optional<Program> depth_, filtered_;
     std::optional<DepthView> depthView_;
     std::optional<CompareSampler> compare_, compareReversed_;
