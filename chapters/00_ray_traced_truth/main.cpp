@@ -38,7 +38,10 @@ class RayTracedTruth : public Chapter {
     void render(const Frame& frame) override {
         const std::vector<const Light*> lights = chosenLights(frame.scene, frame.view);
         const bool scalar = frame.view == "visibility" || frame.view == "rays";
-        *frame.cpuPicture = FloatImage(frame.size.x, frame.size.y, scalar ? 1 : 3);
+        // Where nothing is hit the ambient term is seen itself: a uniform sky, of this radiance.
+        const glm::vec3 ambient = ambientRadiance(frame.scene, light_, ambient_);
+        const float background = frame.view == "color" ? ambient.r : 0.0f;
+        *frame.cpuPicture = FloatImage(frame.size.x, frame.size.y, scalar ? 1 : 3, background);
         std::atomic<std::int64_t> receiving = 0, traced = 0, facingAway = 0, agreed = 0;
 
         parallelRows(

@@ -35,8 +35,7 @@ class DepthFromLight : public Chapter {
 
         // Pass 2: the picture. Without shadows, from the camera or from the light, or the map itself.
         const PassScope scope(frame.passTimer, "shading");
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        clearPicture(frame, options_);
         if (frame.view == "color")
             drawFromCamera(frame);
         else if (frame.view == "light-view")

@@ -36,6 +36,14 @@ void setCameraAndLight(Program& program, const Frame& frame, const ShadowOptions
     setLight(program, options.chosenLight(frame.scene));
 }
 
+void clearPicture(const Frame& frame, const ShadowOptions& options) {
+    glm::vec3 background(0.0f);
+    if (frame.view == "color" || frame.view == "light-view")
+        background = ambientRadiance(frame.scene, options.light, ambientShare);
+    glClearColor(background.r, background.g, background.b, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
 void drawPicture(Program& program, const Frame& frame) {
     const Frustum seen(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y));
     const VisibleClusters visible =

@@ -6,40 +6,24 @@
 #define PENUMBRA_GL_CORE(X)                                                      \
     X(PFNGLACTIVETEXTUREPROC, glActiveTexture)                                   \
     X(PFNGLATTACHSHADERPROC, glAttachShader)                                     \
-    X(PFNGLBEGINQUERYPROC, glBeginQuery)                                         \
-    X(PFNGLBINDATTRIBLOCATIONPROC, glBindAttribLocation)                         \
     X(PFNGLBINDBUFFERPROC, glBindBuffer)                                         \
-    X(PFNGLBINDBUFFERBASEPROC, glBindBufferBase)                                 \
     X(PFNGLBINDFRAMEBUFFERPROC, glBindFramebuffer)                               \
     X(PFNGLBINDRENDERBUFFERPROC, glBindRenderbuffer)                             \
-    X(PFNGLBINDSAMPLERPROC, glBindSampler)                                       \
     X(PFNGLBINDTEXTUREPROC, glBindTexture)                                       \
     X(PFNGLBINDVERTEXARRAYPROC, glBindVertexArray)                               \
-    X(PFNGLBLENDEQUATIONPROC, glBlendEquation)                                   \
-    X(PFNGLBLENDFUNCPROC, glBlendFunc)                                           \
-    X(PFNGLBLENDFUNCSEPARATEPROC, glBlendFuncSeparate)                           \
-    X(PFNGLBLITFRAMEBUFFERPROC, glBlitFramebuffer)                               \
     X(PFNGLBUFFERDATAPROC, glBufferData)                                         \
-    X(PFNGLBUFFERSUBDATAPROC, glBufferSubData)                                   \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, glCheckFramebufferStatus)                 \
     X(PFNGLCLEARPROC, glClear)                                                   \
-    X(PFNGLCLEARBUFFERFIPROC, glClearBufferfi)                                   \
     X(PFNGLCLEARBUFFERFVPROC, glClearBufferfv)                                   \
-    X(PFNGLCLEARBUFFERIVPROC, glClearBufferiv)                                   \
-    X(PFNGLCLEARBUFFERUIVPROC, glClearBufferuiv)                                 \
     X(PFNGLCLEARCOLORPROC, glClearColor)                                         \
-    X(PFNGLCOLORMASKPROC, glColorMask)                                           \
     X(PFNGLCOMPILESHADERPROC, glCompileShader)                                   \
-    X(PFNGLCOPYTEXSUBIMAGE2DPROC, glCopyTexSubImage2D)                           \
     X(PFNGLCREATEPROGRAMPROC, glCreateProgram)                                   \
     X(PFNGLCREATESHADERPROC, glCreateShader)                                     \
     X(PFNGLCULLFACEPROC, glCullFace)                                             \
     X(PFNGLDELETEBUFFERSPROC, glDeleteBuffers)                                   \
     X(PFNGLDELETEFRAMEBUFFERSPROC, glDeleteFramebuffers)                         \
     X(PFNGLDELETEPROGRAMPROC, glDeleteProgram)                                   \
-    X(PFNGLDELETEQUERIESPROC, glDeleteQueries)                                   \
     X(PFNGLDELETERENDERBUFFERSPROC, glDeleteRenderbuffers)                       \
-    X(PFNGLDELETESAMPLERSPROC, glDeleteSamplers)                                 \
     X(PFNGLDELETESHADERPROC, glDeleteShader)                                     \
     X(PFNGLDELETETEXTURESPROC, glDeleteTextures)                                 \
     X(PFNGLDELETEVERTEXARRAYSPROC, glDeleteVertexArrays)                         \
@@ -47,40 +31,28 @@
     X(PFNGLDEPTHMASKPROC, glDepthMask)                                           \
     X(PFNGLDISABLEPROC, glDisable)                                               \
     X(PFNGLDRAWARRAYSPROC, glDrawArrays)                                         \
-    X(PFNGLDRAWARRAYSINSTANCEDPROC, glDrawArraysInstanced)                       \
     X(PFNGLDRAWBUFFERSPROC, glDrawBuffers)                                       \
     X(PFNGLDRAWELEMENTSPROC, glDrawElements)                                     \
-    X(PFNGLDRAWELEMENTSINSTANCEDPROC, glDrawElementsInstanced)                   \
     X(PFNGLENABLEPROC, glEnable)                                                 \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, glEnableVertexAttribArray)               \
-    X(PFNGLENDQUERYPROC, glEndQuery)                                             \
     X(PFNGLFINISHPROC, glFinish)                                                 \
-    X(PFNGLFLUSHPROC, glFlush)                                                   \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, glFramebufferRenderbuffer)               \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, glFramebufferTexture2D)                     \
-    X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, glFramebufferTextureLayer)               \
-    X(PFNGLFRONTFACEPROC, glFrontFace)                                           \
     X(PFNGLGENBUFFERSPROC, glGenBuffers)                                         \
     X(PFNGLGENFRAMEBUFFERSPROC, glGenFramebuffers)                               \
-    X(PFNGLGENQUERIESPROC, glGenQueries)                                         \
     X(PFNGLGENRENDERBUFFERSPROC, glGenRenderbuffers)                             \
-    X(PFNGLGENSAMPLERSPROC, glGenSamplers)                                       \
     X(PFNGLGENTEXTURESPROC, glGenTextures)                                       \
     X(PFNGLGENVERTEXARRAYSPROC, glGenVertexArrays)                               \
     X(PFNGLGENERATEMIPMAPPROC, glGenerateMipmap)                                 \
     X(PFNGLGETACTIVEUNIFORMPROC, glGetActiveUniform)                             \
-    X(PFNGLGETBOOLEANVPROC, glGetBooleanv)                                       \
     X(PFNGLGETERRORPROC, glGetError)                                             \
-    X(PFNGLGETFLOATVPROC, glGetFloatv)                                           \
     X(PFNGLGETINTEGERVPROC, glGetIntegerv)                                       \
     X(PFNGLGETPROGRAMINFOLOGPROC, glGetProgramInfoLog)                           \
     X(PFNGLGETPROGRAMIVPROC, glGetProgramiv)                                     \
-    X(PFNGLGETQUERYOBJECTUIVPROC, glGetQueryObjectuiv)                           \
     X(PFNGLGETSHADERINFOLOGPROC, glGetShaderInfoLog)                             \
     X(PFNGLGETSHADERIVPROC, glGetShaderiv)                                       \
     X(PFNGLGETSTRINGPROC, glGetString)                                           \
     X(PFNGLGETSTRINGIPROC, glGetStringi)                                         \
-    X(PFNGLGETUNIFORMBLOCKINDEXPROC, glGetUniformBlockIndex)                     \
     X(PFNGLGETUNIFORMLOCATIONPROC, glGetUniformLocation)                         \
     X(PFNGLISENABLEDPROC, glIsEnabled)                                           \
     X(PFNGLLINKPROGRAMPROC, glLinkProgram)                                       \
@@ -89,30 +61,19 @@
     X(PFNGLREADBUFFERPROC, glReadBuffer)                                         \
     X(PFNGLREADPIXELSPROC, glReadPixels)                                         \
     X(PFNGLRENDERBUFFERSTORAGEPROC, glRenderbufferStorage)                       \
-    X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, glRenderbufferStorageMultisample) \
-    X(PFNGLSAMPLERPARAMETERFPROC, glSamplerParameterf)                           \
-    X(PFNGLSAMPLERPARAMETERIPROC, glSamplerParameteri)                           \
     X(PFNGLSCISSORPROC, glScissor)                                               \
     X(PFNGLSHADERSOURCEPROC, glShaderSource)                                     \
     X(PFNGLTEXIMAGE2DPROC, glTexImage2D)                                         \
-    X(PFNGLTEXIMAGE3DPROC, glTexImage3D)                                         \
-    X(PFNGLTEXPARAMETERFPROC, glTexParameterf)                                   \
-    X(PFNGLTEXPARAMETERFVPROC, glTexParameterfv)                                 \
     X(PFNGLTEXPARAMETERIPROC, glTexParameteri)                                   \
-    X(PFNGLTEXSUBIMAGE2DPROC, glTexSubImage2D)                                   \
-    X(PFNGLTEXSUBIMAGE3DPROC, glTexSubImage3D)                                   \
     X(PFNGLUNIFORM1FPROC, glUniform1f)                                           \
     X(PFNGLUNIFORM1IPROC, glUniform1i)                                           \
     X(PFNGLUNIFORM2FVPROC, glUniform2fv)                                         \
     X(PFNGLUNIFORM2IVPROC, glUniform2iv)                                         \
     X(PFNGLUNIFORM3FVPROC, glUniform3fv)                                         \
     X(PFNGLUNIFORM4FVPROC, glUniform4fv)                                         \
-    X(PFNGLUNIFORMBLOCKBINDINGPROC, glUniformBlockBinding)                       \
     X(PFNGLUNIFORMMATRIX3FVPROC, glUniformMatrix3fv)                             \
     X(PFNGLUNIFORMMATRIX4FVPROC, glUniformMatrix4fv)                             \
     X(PFNGLUSEPROGRAMPROC, glUseProgram)                                         \
-    X(PFNGLVERTEXATTRIBDIVISORPROC, glVertexAttribDivisor)                       \
-    X(PFNGLVERTEXATTRIBIPOINTERPROC, glVertexAttribIPointer)                     \
     X(PFNGLVERTEXATTRIBPOINTERPROC, glVertexAttribPointer)                       \
     X(PFNGLVIEWPORTPROC, glViewport)
 
