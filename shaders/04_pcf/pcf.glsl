@@ -34,7 +34,7 @@ float bilinearPcf(Receiver receiver) {
     float lit = 0.0;
     for (int j = 0; j < uKernelWidth; ++j) {
         for (int i = 0; i < uKernelWidth; ++i) {
-            vec2 st = receiver.str.xy + (vec2(i, j) - k) / mapSize;
+            vec2 st = clamp(receiver.str.xy + (vec2(i, j) - k) / mapSize, 0.0, 1.0);
             lit += textureLod(uShadowCompare, vec3(st, receiverDepth(receiver, st) - uFarther * bias), 0.0);
         }
     }

@@ -83,9 +83,14 @@ class ChapterHarness {
 
     const Capabilities& capabilities() const { return context_.capabilities(); }
 
+    /// What was drawn since frame(), by whatever.
+    FloatImage readBack(int channels) { return target_->read(channels); }
+
     TruthImage truth(const std::string& view, const glm::ivec2& size) {
-        if (!tracer_) tracer_ = std::make_unique<RayTracer>(scene);
-        return chapter_->truth({scene, *tracer_, camera, size, view, silent_, &context_});
+        return chapter_->truth(request(view, size));
+    }
+    std::optional<TruthImage> areaLightTruth(const std::string& view, const glm::ivec2& size) {
+        return chapter_->areaLightTruth(request(view, size));
     }
 
     const Scene& scene;
@@ -94,6 +99,11 @@ class ChapterHarness {
     WorkCounters work;  ///< of the latest picture
 
  private:
+    TruthRequest request(const std::string& view, const glm::ivec2& size) {
+        if (!tracer_) tracer_ = std::make_unique<RayTracer>(scene);
+        return {scene, *tracer_, camera, size, view, silent_, &context_};
+    }
+
     const Context& context_;
     GpuScene gpu_;
     std::unique_ptr<Chapter> chapter_;
