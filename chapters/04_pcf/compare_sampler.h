@@ -5,10 +5,11 @@
 
 namespace penumbra {
 
-/// 2x2 comparisons, blended by the sampler. One for each depth range; the map's own state is left alone.
+/// GL_LINEAR: 2x2 comparisons, blended by the sampler; GL_NEAREST: one. One for each depth range; the map's
+/// own state is left alone.
 class CompareSampler {
  public:
-    explicit CompareSampler(DepthRange range);
+    explicit CompareSampler(DepthRange range, GLenum filter = GL_LINEAR);
     GLuint id() const { return sampler_.id(); }
 
  private:

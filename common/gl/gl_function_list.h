@@ -68,6 +68,7 @@
     X(PFNGLSCISSORPROC, glScissor)                                               \
     X(PFNGLSHADERSOURCEPROC, glShaderSource)                                     \
     X(PFNGLTEXIMAGE2DPROC, glTexImage2D)                                         \
+    X(PFNGLTEXIMAGE3DPROC, glTexImage3D)                                         \
     X(PFNGLTEXPARAMETERIPROC, glTexParameteri)                                   \
     X(PFNGLUNIFORM1FPROC, glUniform1f)                                           \
     X(PFNGLUNIFORM1IPROC, glUniform1i)                                           \
