@@ -12,18 +12,18 @@ enum ExitStatus { exitFine = 0, exitFailed = 1, exitUsage = 2 };
 /// Stops the program with one line that says what went wrong, where, and what to do about it.
 /// Thrown anywhere; caught once, in `runChapter` (or a tool's main), which prints `what()` and exits.
 class Error : public std::runtime_error {
-   public:
+ public:
     explicit Error(const std::string& whatWhereAndWhatToDo, ExitStatus status = exitFailed)
         : std::runtime_error(whatWhereAndWhatToDo), status_(status) {}
     ExitStatus status() const { return status_; }
 
-   private:
+ private:
     ExitStatus status_;
 };
 
 /// A wrong command line: exit status 2.
 class UsageError : public Error {
-   public:
+ public:
     explicit UsageError(const std::string& whatWhereAndWhatToDo) : Error(whatWhereAndWhatToDo, exitUsage) {}
 };
 

@@ -25,7 +25,8 @@ struct ShadowOptions {
 /// Sets the uniforms of lit.vert and lit.frag that don't belong to a material: camera, light, ambient term.
 void setCameraAndLight(Program& program, const Frame& frame, const ShadowOptions& options);
 
-/// Clears depth and picture: the views of radiance to the ambient term seen itself, a uniform sky; others to 0.
+/// Clears depth and picture: the views of radiance to the ambient term seen itself, a uniform sky; others to
+/// 0.
 void clearPicture(const Frame& frame, const ShadowOptions& options);
 
 /// Draws what the camera of the frame can see (everything without `frame.skip`: same picture) with `program`.

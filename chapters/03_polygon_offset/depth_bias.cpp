@@ -1,6 +1,7 @@
 #include "chapters/03_polygon_offset/depth_bias.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "common/error.h"
@@ -31,6 +32,16 @@ BiasMethod biasMethod(const std::string& name) {
     return BiasMethod(found - names.begin());
 }
 
+std::vector<std::string> biasDefines(BiasMethod method) {
+    std::vector<std::string> defines{"METHOD " + std::to_string(int(method))};
+    for (std::size_t i = 0; i < biasMethodNames().size(); ++i) {
+        std::string name = biasMethodNames()[i];
+        for (char& c : name) c = c == '-' ? '_' : char(std::toupper(c));
+        defines.push_back(name + " " + std::to_string(i));
+    }
+    return defines;
+}
+
 DepthErrors bothPassesErrors(const ShadowMap& map, const LightFrustum& frustum, const Aabb& bounds) {
     return depthErrors(map.format(), frustum, bounds, 3 * transformOperations);
 }
@@ -40,6 +51,14 @@ float constantBias(const LightFrustum& frustum, int mapSize) {
     const double halfDiagonal = 0.5 * glm::length(frustum.texelSize(middle, mapSize));
     constexpr double tan60 = 1.7320508075688772;
     return float(halfDiagonal * tan60 * depthPerMetre(frustum, middle));
+}
+
+float steepestSlope(const LightFrustum& frustum) {
+    // A step d of the ray's direction moves the hit on a plane by (n.d)/(n.ray) of its distance, and
+    // |n.d| / |n.ray| <= |d| (tan(theta) + 1) for a ray off the axis; 1 is for its own slant.
+    constexpr double tan85 = 11.430052302761343;
+    const double metres = (tan85 + 1.0) * 2.0 * (frustum.halfExtent.x + frustum.halfExtent.y);
+    return float(metres * depthPerMetre(frustum, 1.0));
 }
 
 // [begin:caster-draw]

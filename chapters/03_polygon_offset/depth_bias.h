@@ -9,7 +9,6 @@
 
 namespace penumbra {
 
-/// The order is that of the constants in biased.frag.
 enum class BiasMethod {
     none,
     constant,
@@ -25,6 +24,9 @@ const std::vector<std::string>& biasMethodNames();
 /// Throws UsageError for an unknown name.
 BiasMethod biasMethod(const std::string& name);
 
+/// The defines that make biased.frag the program of `method`: METHOD, and the names that it is compared with.
+std::vector<std::string> biasDefines(BiasMethod method);
+
 /// DepthErrors of both passes together: the caster's vertex transform in pass 1, the receiver's in pass 2,
 /// and its interpolation from vertices to pixels (as long as a transform again).
 DepthErrors bothPassesErrors(const ShadowMap& map, const LightFrustum& frustum, const Aabb& bounds);
@@ -32,6 +34,10 @@ DepthErrors bothPassesErrors(const ShadowMap& map, const LightFrustum& frustum, 
 /// The slides' epsilon for the constant method: what a plane at 60 degrees in the middle of the frustum asks
 /// for, window depth.
 float constantBias(const LightFrustum& frustum, int mapSize);
+
+/// uSteepest of depth_slope.glsl: no plane within 85 degrees of facing the light has |dz/du| + |dz/dv| above
+/// this over q. Without a limit a surface edge-on to the light would get an endless bias.
+float steepestSlope(const LightFrustum& frustum);
 
 /// How `method` draws the casters: culling and glPolygonOffset. `scale` multiplies factor and units.
 CasterDraw casterDraw(BiasMethod method, const ShadowMap& map, const LightFrustum& frustum,

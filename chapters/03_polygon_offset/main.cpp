@@ -10,6 +10,8 @@
 #include "common/app/pass_timer.h"
 #include "common/error.h"
 
+#include <map>
+
 using namespace penumbra;
 
 namespace {
@@ -27,7 +29,7 @@ class PolygonOffset : public Chapter {
     void load(const Scene&, const Context*) override {
         depth_.emplace("01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag");
         peel_.emplace("01_depth_from_light/depth.vert", "03_polygon_offset/peel.frag");
-        biased_.emplace("02_shadow_test/shadowed.vert", "03_polygon_offset/biased.frag");
+        biased_.clear();
         depthView_.emplace();
         map_.reset();
         secondLayer_.reset();
@@ -51,15 +53,15 @@ class PolygonOffset : public Chapter {
 
         // Pass 2: the picture, compared with a bias.
         const PassScope scope(frame.passTimer, "shading");
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        clearPicture(frame, options_);
         if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
         glEnable(GL_DEPTH_TEST);
-        setCameraAndLight(*biased_, frame, options_);
-        setShadowMap(*biased_, map, frustum, light, outside_);
-        setBias(method, errors, second, constantBias(frustum, map.size()));
-        biased_->set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
-        frame.gpu->drawShaded(*biased_, seenByCamera(frame));
+        Program& biased = program(method);
+        setCameraAndLight(biased, frame, options_);
+        setShadowMap(biased, map, frustum, light, outside_);
+        setBias(biased, errors, second, frustum);
+        biased.set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
+        drawPicture(biased, frame);
         // [end:passes]
     }
 
@@ -71,7 +73,9 @@ class PolygonOffset : public Chapter {
     }
 
     std::vector<Program*> programs() override {
-        return {&*depth_, &*peel_, &*biased_, &depthView_->program()};
+        std::vector<Program*> all{&*depth_, &*peel_, &depthView_->program()};
+        for (auto& [method, program] : biased_) all.push_back(&program);
+        return all;
     }
 
  private:
@@ -87,18 +91,29 @@ class PolygonOffset : public Chapter {
     }
     // [end:peel]
 
-    void setBias(BiasMethod method, const DepthErrors& errors, const ShadowMap& second, float constant) {
-        biased_->setTexture("uSecondLayer", GL_TEXTURE_2D, second.texture());
-        biased_->set("uMethod", int(method));
-        biased_->set("uBias", bias_);
-        biased_->set("uConstantBias", constant);
-        setDepthErrors(*biased_, errors);
+    Program& program(BiasMethod method) {
+        const auto found = biased_.find(method);
+        if (found != biased_.end()) return found->second;
+        return biased_
+            .emplace(method, Program("02_shadow_test/shadowed.vert", "03_polygon_offset/biased.frag",
+                                     biasDefines(method)))
+            .first->second;
+    }
+
+    void setBias(Program& biased, const DepthErrors& errors, const ShadowMap& second,
+                 const LightFrustum& frustum) {
+        biased.setTexture("uSecondLayer", GL_TEXTURE_2D, second.texture());
+        biased.set("uBias", bias_);
+        biased.set("uConstantBias", constantBias(frustum, second.size()));
+        biased.set("uSteepest", steepestSlope(frustum));
+        setDepthErrors(biased, errors);
     }
 
     ShadowOptions options_;
     std::string outside_ = "lit", method_ = "slope";
     float bias_ = 1.0f;
-    std::optional<Program> depth_, peel_, biased_;
+    std::optional<Program> depth_, peel_;
+    std::map<BiasMethod, Program> biased_;  ///< one for each method in use
     std::optional<DepthView> depthView_;
     std::optional<ShadowMap> map_, secondLayer_;
 };

@@ -34,11 +34,7 @@ std::optional<int> runInWindow(ChapterSession& session) {
         if (!session.context()->window()) return std::nullopt;
         return runWindow({.session = session});
     }
-    ContextRequest request;
-    request.backend = session.options().backend;
-    request.headless = false;
-    request.title = "Penumbra " + session.info().name;
-    const auto context = createContext(request);
+    const auto context = createContext(contextRequest(session.info(), session.options(), false));
     if (!context->window()) return std::nullopt;
     return runWindow({.session = session, .context = context.get()});
 }

@@ -32,16 +32,17 @@ void requireInScene(const char* flag, int index, std::size_t count, const Scene&
                                  what, count == 1 ? "" : "s"));
 }
 
+}  // namespace
+
 ContextRequest contextRequest(const ChapterInfo& info, const Options& options, bool headless) {
     ContextRequest request;
     request.backend = options.backend;
     request.api = options.api;
     request.headless = headless;
+    request.windowSize = options.windowSize;
     request.title = "Penumbra " + info.name;
     return request;
 }
-
-}  // namespace
 
 ChapterSession::ChapterSession(const ChapterInfo& info, std::unique_ptr<Chapter> chapter,
                                Parameters& parameters, const Options& options, bool headless,

@@ -22,6 +22,9 @@ struct FrameRequest {
     PassTimer* passTimer = nullptr;
 };
 
+/// The context that these options ask for; `headless`: never a window.
+ContextRequest contextRequest(const ChapterInfo& info, const Options& options, bool headless);
+
 class ChapterSession {
  public:
     /// Loads scene and chapter. Makes the context unless the chapter needs none; `headless`: never a window.

@@ -21,10 +21,11 @@ struct Options {
     bool headless = false;  ///< --headless, or implied by --output and --report
     Backend backend = Backend::automatic;
     Api api = Api::desktop;
-    std::string scene = "courtyard";  ///< name in assets/, or a file
-    int camera = 0;                   ///< index into Scene::cameras
-    glm::ivec2 size{512, 512};        ///< pixels
-    int antialias = 1;                ///< N: rendered N x N larger, then box-filtered
+    std::string scene = "courtyard";   ///< name in assets/, or a file
+    int camera = 0;                    ///< index into Scene::cameras
+    glm::ivec2 size{512, 512};         ///< pixels
+    glm::ivec2 windowSize{1280, 800};  ///< of the window when it opens, screen units; --size sets both
+    int antialias = 1;                 ///< N: rendered N x N larger, then box-filtered
     std::string view = "color";
     std::optional<double> exposureEv;  ///< stops relative to the scene's own exposure, as 2^EV; none: auto
     std::filesystem::path output;      ///< empty: none

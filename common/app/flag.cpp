@@ -7,8 +7,8 @@
 #include <charconv>
 #include <limits>
 
-#include "common/text/spelling.h"
 #include "common/error.h"
+#include "common/text/spelling.h"
 
 namespace penumbra {
 namespace {
@@ -66,8 +66,9 @@ void addPictureFlags(Flags& flags, const ChapterInfo& info, Options& o) {
                      [&o](const std::string& t) { o.scene = requireText("scene", t); }});
     flags.push_back({"camera", "INDEX", group, "which camera of the scene (default 0)", valued,
                      [&o](const std::string& t) { o.camera = parseNumber("camera", t, 0, 9999); }});
-    flags.push_back({"size", "WxH", group, "picture size in pixels, 1x1 to 16384x16384 (default 512x512)",
-                     valued, [&o](const std::string& t) { o.size = parseSize(t); }});
+    flags.push_back({"size", "WxH", group,
+                     "picture size in pixels, 1x1 to 16384x16384 (default 512x512; a window 1280x800)",
+                     valued, [&o](const std::string& t) { o.size = o.windowSize = parseSize(t); }});
     flags.push_back({"view", "NAME", group, "which image; see Views below (default color)", valued,
                      [&o, names = viewNames(info)](const std::string& t) {
                          requireChoice("view", t, names);

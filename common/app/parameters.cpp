@@ -7,8 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "common/text/spelling.h"
 #include "common/error.h"
+#include "common/text/spelling.h"
 
 namespace penumbra {
 namespace {

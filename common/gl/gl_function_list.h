@@ -1,5 +1,5 @@
-// The two lists behind common/gl/gl.h. To use one more OpenGL function, add its line here; it must exist in OpenGL 3.3 core and
-// in OpenGL ES 3.0 alike, or be optional, with a fallback where it is called.
+// The two lists behind common/gl/gl.h. To use one more OpenGL function, add its line here; it must exist in
+// OpenGL 3.3 core and in OpenGL ES 3.0 alike, or be optional, with a fallback where it is called.
 #pragma once
 
 // clang-format off

@@ -1,5 +1,5 @@
-// OpenGL objects as move-only values that free what they own. The raw id stays readable: `glBindTexture(GL_TEXTURE_2D,
-// map.id())` is still plain OpenGL.
+// OpenGL objects as move-only values that free what they own. The raw id stays readable:
+// `glBindTexture(GL_TEXTURE_2D, map.id())` is still plain OpenGL.
 #pragma once
 
 #include <utility>
@@ -11,7 +11,7 @@ namespace penumbra {
 /// `Traits` supplies `static GLuint create()` and `static void destroy(GLuint)`.
 template <class Traits>
 class GlObject {
-   public:
+ public:
     GlObject() : id_(Traits::create()) {}
     GlObject(GlObject&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
     GlObject& operator=(GlObject&& other) noexcept {
@@ -25,7 +25,7 @@ class GlObject {
     }
     GLuint id() const { return id_; }
 
-   private:
+ private:
     GLuint id_;
 };
 

@@ -6,7 +6,8 @@
 
 namespace penumbra {
 
-/// Closed box [lower, upper] in metres. Default-constructed: empty (extending it by a point gives that point).
+/// Closed box [lower, upper] in metres. Default-constructed: empty (extending it by a point gives that
+/// point).
 struct Aabb {
     glm::dvec3 lower{std::numeric_limits<double>::infinity()};
     glm::dvec3 upper{-std::numeric_limits<double>::infinity()};

@@ -10,8 +10,9 @@
 
 namespace penumbra {
 
-/// `standard`: z_ndc -1 (near) .. 1 (far). `reversed`: z_ndc 1 (near) .. 0 (far), for 32F depth with glClipControl
-/// (N. Reed, "Depth Precision Visualized", 2015): the float exponent then compensates the 1/z of perspective.
+/// `standard`: z_ndc -1 (near) .. 1 (far). `reversed`: z_ndc 1 (near) .. 0 (far), for 32F depth with
+/// glClipControl (N. Reed, "Depth Precision Visualized", 2015): the float exponent then compensates the 1/z
+/// of perspective.
 enum class DepthRange { standard, reversed };
 
 /// Perspective frustum. `verticalFov` full angle in radians, 0 < near < far, aspect = width / height.
@@ -32,8 +33,9 @@ glm::dmat4 viewFromWorld(const glm::dvec3& eye, const glm::dvec3& forward, const
 glm::dmat4 textureFromClip(DepthRange range = DepthRange::standard);
 
 /// Texture-space depth slope of a plane: for the plane through `p` with normal `n` (both world), seen through
-/// `textureFromWorld`, returns (dz/du, dz/dv) with u, v in [0,1] texture units. Exact for planes (window depth is
-/// affine in window position even under perspective). Infinite or huge when the plane is edge-on to the light.
+/// `textureFromWorld`, returns (dz/du, dz/dv) with u, v in [0,1] texture units. Exact for planes (window
+/// depth is affine in window position even under perspective). Infinite or huge when the plane is edge-on to
+/// the light.
 glm::dvec2 depthSlope(const glm::dmat4& textureFromWorld, const glm::dvec3& p, const glm::dvec3& n);
 
 }  // namespace penumbra

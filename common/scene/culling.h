@@ -1,5 +1,5 @@
-// Which clusters can touch a frustum. Conservative: a cluster is dropped only if its box lies wholly outside one plane, so
-// what is dropped cannot change a pixel.
+// Which clusters can touch a frustum. Conservative: a cluster is dropped only if its box lies wholly outside
+// one plane, so what is dropped cannot change a pixel.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ namespace penumbra {
 struct Frustum {
     std::array<glm::dvec4, 6> planes;
     explicit Frustum(const glm::dmat4& clipFromWorld, DepthRange range = DepthRange::standard);
-    /// False only if the box is certainly outside (a relative margin of 1e-6 guards against rounding in float shaders).
+    /// False only if the box is certainly outside (a relative margin of 1e-6 guards against rounding in float
+    /// shaders).
     bool mayTouch(const Aabb& box) const;
 };
 

@@ -10,8 +10,9 @@
 
 namespace penumbra {
 
-/// Loads a .gltf or .glb file. Throws Error with one line (what, where, what to do) for anything that is broken,
-/// unsupported or too large; never crashes and never allocates more than the file's own size justifies.
+/// Loads a .gltf or .glb file. Throws Error with one line (what, where, what to do) for anything that is
+/// broken, unsupported or too large; never crashes and never allocates more than the file's own size
+/// justifies.
 Scene loadGltf(const std::filesystem::path& file);
 
 /// The same from memory (glTF JSON or GLB, told apart by the magic); external files are refused unless

@@ -12,7 +12,8 @@ bool projectOnMap(vec4 strq, out vec3 str, out float decided) {
     str = vec3(0.0);
     decided = uBehindLit ? 1.0 : 0.0;
     if (strq.w <= 0.0) return false;
-    str = vec3(strq.x / strq.w, strq.y / strq.w, strq.z / strq.w);  // s/q, t/q, r/q
+    float perQ = 1.0 / strq.w;
+    str = vec3(strq.x * perQ, strq.y * perQ, strq.z * perQ);  // s/q, t/q, r/q
     decided = uOutsideLit ? 1.0 : 0.0;
     bool beyondFar = uFarther > 0.0 ? str.z > 1.0 : str.z < 0.0;
     return !beyondFar && all(greaterThanEqual(str.xy, vec2(0.0))) && all(lessThan(str.xy, vec2(1.0)));

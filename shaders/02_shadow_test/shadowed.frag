@@ -21,10 +21,6 @@ float shadowTest(vec4 pShadow) {
 // [end:shadow-test]
 
 void main() {
-#ifdef NO_SHADOW
-    float S = 1.0;  // the benchmark's yardstick: the same pass without the look-up
-#else
     float S = shadowTest(strq);
-#endif
     outColor = viewOf(pWorld, nWorld, vUv, S);
 }

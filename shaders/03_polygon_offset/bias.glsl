@@ -8,9 +8,9 @@ uniform vec2 uRasterError; // of an interpolated depth: constant part, and relat
 
 // [begin:bound]
 // S: the map's depth was taken at the texel's centre, up to half a texel away along s and along t.
-float slopeBias(DepthSlope slope, float q, int mapSize) {
-    float texels = 0.5 + uSnap + float(mapSize) * (uRounding.x + uRounding.z) / q;
-    return texels / float(mapSize) * (slope.atMost.x + slope.atMost.y);
+float slopeBias(DepthSlope slope, float perQ, float mapSize) {
+    float texels = 0.5 + uSnap + mapSize * (uRounding.x + uRounding.z) * perQ;
+    return texels / mapSize * slope.atMost;
 }
 
 // Q: what the depth format rounds away.
@@ -20,9 +20,9 @@ float quantumBias(float z) {
 
 // C: what float arithmetic rounds away, from the vertices to here: the transforms, then the rasteriser's plane equation,
 // whose terms can reach as far as depth changes across the whole map.
-float roundingBias(DepthSlope slope, float q, float z) {
-    float transforms = (uRounding.y + abs(z) * uRounding.z) / q;
-    float interpolation = uRasterError.x + uRasterError.y * (abs(z) + slope.atMost.x + slope.atMost.y);
+float roundingBias(DepthSlope slope, float perQ, float z) {
+    float transforms = (uRounding.y + abs(z) * uRounding.z) * perQ;
+    float interpolation = uRasterError.x + uRasterError.y * (abs(z) + slope.atMost);
     return transforms + interpolation;
 }
 // [end:bound]

@@ -9,55 +9,62 @@ in vec4 strq;
 
 uniform mat4 uShadowTextureFromWorld;
 uniform sampler2D uSecondLayer;  // midpoint
-uniform int uMethod;
 uniform float uBias;             // multiple of what the method asks for
 uniform float uConstantBias;
 
-const int methodNone = 0, methodConstant = 1, methodPolygonOffset = 2, methodSlope = 3, methodReceiverPlane = 4,
-          methodNormalOffset = 5, methodFrontFace = 6, methodMidpoint = 7;
-
 out vec4 outColor;
 
+// The triangle's own normal, towards the light: shading normals are smooth, and an offset along them misses facets.
+vec3 geometricNormal(vec3 p, vec3 toLight) {
+    vec3 n = normalize(cross(dFdx(p), dFdy(p)));
+    return dot(n, toLight) < 0.0 ? -n : n;
+}
+
 // [begin:methods]
-float shadowTest(vec4 pShadow, Plane plane) {
+// METHOD is a define: each method is a program of its own, and pays for nothing that it doesn't use.
+// dx, dy: differences of pShadow between neighbouring pixels.
+float shadowTest(vec4 pShadow, vec4 dx, vec4 dy) {
     vec3 str;
     float decided;
     if (!projectOnMap(pShadow, str, decided)) return decided;
-    int mapSize = textureSize(uShadowMap, 0).x;
-    DepthSlope slope = depthSlope(uShadowTextureFromWorld, pShadow.w, str, plane);
-    float Q = quantumBias(str.z), C = roundingBias(slope, pShadow.w, str.z);
+    float mapSize = float(textureSize(uShadowMap, 0).x), perQ = 1.0 / pShadow.w;
+    DepthSlope slope = depthSlope(pShadow, str, dx, dy, perQ);
+    float Q = quantumBias(str.z), C = roundingBias(slope, perQ, str.z);
     float bias = 0.0;  // none, polygon-offset, front-face: what there is was done in pass 1
 
-    if (uMethod == methodConstant) {
-        bias = uConstantBias;
-    } else if (uMethod == methodSlope) {
-        bias = slopeBias(slope, pShadow.w, mapSize) + Q + C;
-    } else if (uMethod == methodNormalOffset) {
-        // The same S, spent along the normal: on any slope it is at most half a texel's diagonal, so nothing detaches.
-        vec3 offset = uBias * slopeBias(slope, pShadow.w, mapSize) / slope.perMetre * plane.normal;
-        if (!projectOnMap(uShadowTextureFromWorld * vec4(pWorld + offset, 1.0), str, decided)) return decided;
-        bias = Q + C;
-    } else if (uMethod == methodReceiverPlane) {
-        // Compare at the texel's centre, where the map's depth is from: S is gone, what is left is the slope's own error.
-        vec2 toCentre = (vec2(texelAt(str.xy)) + 0.5) / float(mapSize) - str.xy;
-        // What the map holds ends at the far plane.
-        str.z = clamp(str.z + dot(slope.value, toCentre), 0.0, 1.0);
-        vec2 unsure = 2.0 * uSnap * slope.atMost + slope.atMost - abs(slope.value);
-        bias = Q + C + 0.5 / float(mapSize) * (unsure.x + unsure.y);
-    }
+#if METHOD == CONSTANT
+    bias = uConstantBias;
+#elif METHOD == SLOPE
+    bias = slopeBias(slope, perQ, mapSize) + Q + C;
+#elif METHOD == NORMAL_OFFSET
+    // The same S, spent along the normal: on any slope it is at most half a texel's diagonal, so nothing detaches.
+    vec3 n = geometricNormal(pWorld, directionToLight(pWorld));
+    vec4 step = uShadowTextureFromWorld * vec4(n, 0.0);
+    vec3 gain = (step.xyz - str * step.w) * perQ;  // for a metre along n; what counts is the height above the plane
+    float perMetre = abs(gain.z - dot(slope.value, gain.xy));
+    vec3 offset = uBias * slopeBias(slope, perQ, mapSize) / perMetre * n;
+    if (!projectOnMap(uShadowTextureFromWorld * vec4(pWorld + offset, 1.0), str, decided)) return decided;
+    bias = Q + C;
+#elif METHOD == RECEIVER_PLANE
+    // Compare at the texel's centre, where the map's depth is from: S is gone, what is left is the slope's own error.
+    vec2 toCentre = (vec2(texelAt(str.xy)) + 0.5) / mapSize - str.xy;
+    // What the map holds ends at the far plane.
+    str.z = clamp(str.z + dot(slope.value, toCentre), 0.0, 1.0);
+    float unsure = (1.0 + 2.0 * uSnap) * slope.atMost - abs(slope.value.x) - abs(slope.value.y);
+    bias = Q + C + 0.5 / mapSize * unsure;
+#endif
 
     float zShadow = nearestDepth(texelAt(str.xy));
-    if (uMethod == methodMidpoint) zShadow = 0.5 * (zShadow + texelFetch(uSecondLayer, texelAt(str.xy), 0).r);
+#if METHOD == MIDPOINT
+    zShadow = 0.5 * (zShadow + texelFetch(uSecondLayer, texelAt(str.xy), 0).r);
+#endif
     return uFarther * (str.z - zShadow) > uBias * bias ? 0.0 : 1.0;
 }
 // [end:methods]
 
 void main() {
-    Plane plane = receiverPlane(pWorld, nWorld, directionToLight(pWorld));
-#ifdef NO_SHADOW
-    float S = 1.0;  // the benchmark's yardstick: the same pass without the look-up
-#else
-    float S = shadowTest(strq, plane);
-#endif
+    // Differences to the neighbours come first: inside a branch they are undefined.
+    vec4 dx = dFdx(strq), dy = dFdy(strq);
+    float S = shadowTest(strq, dx, dy);
     outColor = viewOf(pWorld, nWorld, vUv, S);
 }

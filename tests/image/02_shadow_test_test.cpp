@@ -235,7 +235,7 @@ TEST(Chapter02, ABrokenShadowTestIsCaught) {
     const Mutation mutations[] = {
         {"flipped compare", test, "uFarther * zLight > uFarther * zShadow",
          "uFarther * zLight < uFarther * zShadow"},
-        {"no divide by q", lookup, "vec3(strq.x / strq.w, strq.y / strq.w, strq.z / strq.w)", "strq.xyz"},
+        {"no divide by q", lookup, "float perQ = 1.0 / strq.w;", "float perQ = 1.0;"},
         {"y flipped", lookup, "ivec2(st * vec2(size))", "ivec2(vec2(st.x, 1.0 - st.y) * vec2(size))"},
         {"no depth of its own", test, "float zLight = str.z", "float zLight = 0.0"},
     };

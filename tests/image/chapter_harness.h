@@ -70,7 +70,14 @@ class ChapterHarness {
                 .seed = 0,
                 .skip = skip,
                 .cpuPicture = &unused_,
-                .progress = silent_};
+                .progress = silent_,
+                .passTimer = passTimer};
+    }
+
+    /// Draws, and waits until it is drawn.
+    void render(const std::string& view, const glm::ivec2& size) {
+        chapter_->render(frame(view, size));
+        glFinish();
     }
 
     /// The picture, top row first.
@@ -97,6 +104,7 @@ class ChapterHarness {
     Camera camera;      ///< the scene's first, to be changed at will
     bool skip = true;   ///< false: --skip-none
     WorkCounters work;  ///< of the latest picture
+    PassTimer* passTimer = nullptr;
 
  private:
     TruthRequest request(const std::string& view, const glm::ivec2& size) {

@@ -29,10 +29,11 @@ class MutatedShaders {
         if (at == std::string::npos || text.find(from, at + 1) != std::string::npos)
             throw std::runtime_error("mutation: '" + from + "' is not in " + file + " exactly once");
         std::ofstream(folder_ / file) << text.replace(at, from.size(), to);
+        if (const char* before = std::getenv("PENUMBRA_SHADERS")) before_ = before;
         setenv("PENUMBRA_SHADERS", folder_.c_str(), 1);
     }
     ~MutatedShaders() {
-        unsetenv("PENUMBRA_SHADERS");
+        setenv("PENUMBRA_SHADERS", before_.c_str(), 1);  // empty counts as unset
         std::error_code ignored;
         std::filesystem::remove_all(folder_, ignored);
     }
@@ -41,6 +42,7 @@ class MutatedShaders {
 
  private:
     std::filesystem::path folder_;
+    std::string before_;
 };
 
 }  // namespace penumbra

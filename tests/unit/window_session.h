@@ -39,7 +39,7 @@ class VirtualScreen {
             ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
             const std::string number = std::to_string(ends[1]);
             ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1400x900x24", "-nolisten",
-                     "tcp", nullptr);
+                     "tcp", "-noreset", nullptr);
             ::_exit(127);
         }
         ::close(ends[1]);
@@ -53,9 +53,15 @@ class VirtualScreen {
         ::kill(process_, SIGTERM);
         ::waitpid(process_, nullptr, 0);
     }
-    /// ":7", or "" where Xvfb or xdotool is not installed.
+    /// ":7", or "" where Xvfb, xdotool or xrdb is not installed.
     std::string display() const {
-        return std::system("command -v xdotool > /dev/null") == 0 ? display_ : std::string();
+        return std::system("command -v xdotool xrdb > /dev/null") == 0 ? display_ : std::string();
+    }
+    /// Tells programs started from now on how dense the screen is: 96 dots per inch are scale 1.
+    bool setDotsPerInch(int dpi) const {
+        return std::system(("echo Xft.dpi: " + std::to_string(dpi) + " | xrdb -nocpp -display " + display_ +
+                            " -merge -")
+                               .c_str()) == 0;
     }
 
  private:

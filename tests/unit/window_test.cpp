@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "common/app/chapter.h"
+#include "common/app/window_input.h"
 #include "common/error.h"
+#include "common/gl/context.h"
 #include "common/gl/fullscreen.h"
 #include "common/gl/gl.h"
 #include "common/image/compare.h"
@@ -85,7 +87,8 @@ int runPattern(std::vector<std::string> arguments, bool needsGl = true) {
 class WindowTest : public testing::Test {
  protected:
     void SetUp() override {
-        if (screen_.display().empty()) GTEST_SKIP() << "needs a virtual screen: install xvfb and xdotool";
+        ASSERT_FALSE(screen_.display().empty())
+            << "install xvfb, xdotool and x11-xserver-utils (./test does)";
         fs::create_directories(folder_ / "shaders");
         fs::copy(PENUMBRA_SOURCE_DIR "/shaders/common", folder_ / "shaders/common",
                  fs::copy_options::recursive);
@@ -149,6 +152,27 @@ TEST_F(WindowTest, EsDrawsTheSame) {
     const auto window = open({"--api", "es"});
     window->press("period F1 F1");
     EXPECT_LE(difference(screenshot(*window, 1), headless({"--stripes"})), step);
+    expectQuit(*window);
+}
+
+TEST_F(WindowTest, SizeIsTheSizeOfTheWindow) {
+    const auto window = open({"--size", "700x300"});
+    const FloatImage picture = screenshot(*window, 1);
+    EXPECT_EQ(picture.width, 700);
+    EXPECT_EQ(picture.height, 300);
+    expectQuit(*window);
+}
+
+TEST_F(WindowTest, OnADenseScreenThePanelGrowsAndThePictureFillsTheWindow) {
+    ASSERT_TRUE(screen_.setDotsPerInch(192));
+    WindowSession scaled(screen_.display(), folder_.path(), [] {
+        const auto context = createContext({.backend = Backend::window, .headless = false});
+        return interfaceScale(context->window()) == 2.0f ? 0 : 1;
+    });
+    EXPECT_EQ(scaled.status(), 0) << scaled.errors();
+    const auto window =
+        open({"--size", "640x400"});  // points: 1280x800 pixels, and the picture has to fill them
+    EXPECT_LE(difference(screenshot(*window, 1), headless({})), step);
     expectQuit(*window);
 }
 
