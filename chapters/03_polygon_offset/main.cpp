@@ -105,8 +105,7 @@ class PolygonOffset : public Chapter {
         biased.setTexture("uSecondLayer", GL_TEXTURE_2D, second.texture());
         biased.set("uBias", bias_);
         biased.set("uConstantBias", constantBias(frustum, second.size()));
-        biased.set("uSteepest", steepestSlope(frustum));
-        setDepthErrors(biased, errors);
+        setDepthErrors(biased, errors, frustum);
     }
 
     ShadowOptions options_;

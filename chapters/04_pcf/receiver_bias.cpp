@@ -13,7 +13,7 @@ void ReceiverBias::declare(Parameters& parameters) {
 
 void ReceiverBias::set(Program& program, const ShadowMap& map, const LightFrustum& frustum,
                        const Scene& scene) const {
-    setDepthErrors(program, bothPassesErrors(map, frustum, scene.bounds));
+    setDepthErrors(program, bothPassesErrors(map, frustum, scene.bounds), frustum);
     program.set("uFollowPlane", receiverPlane ? 1.0f : 0.0f);
     program.set("uBias", bias);
 }

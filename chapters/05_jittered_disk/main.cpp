@@ -48,8 +48,7 @@ class JitteredDisk : public Chapter {
 
         // Pass 2: the picture, every fragment tested N times.
         const PassScope scope(frame.passTimer, "shading");
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        clearPicture(frame, options_);
         if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
         glEnable(GL_DEPTH_TEST);
         setCameraAndLight(*filtered_, frame, options_);

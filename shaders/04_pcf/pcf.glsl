@@ -6,11 +6,6 @@ uniform int uKernelWidth;                // n, texels
 uniform bool uBilinear;
 uniform bool uFilterDepths;
 
-float reachOfSquare(Receiver receiver, float texels) {
-    vec2 slope = slopePerTexel(receiver);
-    return texels * (slope.x + slope.y);
-}
-
 // [begin:pcf]
 float nearestPcf(Receiver receiver) {
     float k = 0.5 * float(uKernelWidth - 1);
@@ -28,8 +23,7 @@ float nearestPcf(Receiver receiver) {
 // there is one depth for the four of them.
 float bilinearPcf(Receiver receiver) {
     float k = 0.5 * float(uKernelWidth - 1), mapSize = float(textureSize(uShadowMap, 0).x);
-    vec2 ownSlope = receiver.slope.atMost / mapSize;
-    float footprint = mix(0.5, 1.0, uFollowPlane) * (ownSlope.x + ownSlope.y);
+    float footprint = mix(0.5, 1.0, uFollowPlane) * receiver.slope.atMost / mapSize;
     float bias = kernelBias(receiver, reachOfSquare(receiver, k) + footprint);
     float lit = 0.0;
     for (int j = 0; j < uKernelWidth; ++j) {

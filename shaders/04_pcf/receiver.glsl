@@ -2,40 +2,46 @@
 #include "02_shadow_test/shadow_lookup.glsl"
 #include "03_polygon_offset/bias.glsl"
 
-uniform mat4 uShadowTextureFromWorld;
 uniform float uBias;         // multiple of the derived bound
 uniform float uFollowPlane;  // 1: a tap is compared with the receiver's plane at its texel's centre; 0: with the point's own depth
 
 struct Receiver {
-    vec3 str;         // where the point falls on the map, and its depth
-    float q;
+    vec3 str;    // where the point falls on the map, and its depth
+    float perQ;  // 1 / q
     DepthSlope slope;
 };
 
-// False when the map cannot tell, and `decided` is S by decree (chapter 02).
-bool receiverOnMap(vec4 pShadow, Plane plane, out Receiver receiver, out float decided) {
+// False when the map cannot tell, and `decided` is S by decree (chapter 02). dx, dy: differences of pShadow between neighbouring
+// pixels, taken before any branch.
+bool receiverOnMap(vec4 pShadow, vec4 dx, vec4 dy, out Receiver receiver, out float decided) {
     bool onMap = projectOnMap(pShadow, receiver.str, decided);
-    receiver.q = pShadow.w;
-    receiver.slope = depthSlope(uShadowTextureFromWorld, pShadow.w, receiver.str, plane);
+    receiver.perQ = 1.0 / pShadow.w;
+    receiver.slope = depthSlope(pShadow, receiver.str, dx, dy, receiver.perQ);
     return onMap;
 }
 
 // [begin:kernel-bias]
-// What a tap one texel further away along s, and along t, may be off by: all of the slope, or what is unsure of it if the plane
-// is followed.
-vec2 slopePerTexel(Receiver receiver) {
-    vec2 slope = receiver.slope.atMost - uFollowPlane * abs(receiver.slope.value);
-    return slope / float(textureSize(uShadowMap, 0).x);
+// What the depth a texel further away, in the worst direction, may be off by: what is unsure of the slope, and the slope itself
+// (`worst`, of dz/ds and dz/dt) unless the plane is followed.
+float slopePerTexel(Receiver receiver, float worst) {
+    vec2 slope = abs(receiver.slope.value);
+    float unsure = max(receiver.slope.atMost - slope.x - slope.y, 0.0);
+    return (unsure + (1.0 - uFollowPlane) * worst) / float(textureSize(uShadowMap, 0).x);
+}
+
+// Taps up to `texels` away along s and along t.
+float reachOfSquare(Receiver receiver, float texels) {
+    return texels * slopePerTexel(receiver, abs(receiver.slope.value.x) + abs(receiver.slope.value.y));
 }
 
 // B of chapter 03, for taps whose depth may be off by `reach` because of where they are: (k + 1/2)(|z_s| + |z_t|) for a square of
 // 2k + 1 texels is the 1/2 of one tap, and a reach of k(|z_s| + |z_t|).
 float kernelBias(Receiver receiver, float reach) {
-    int mapSize = textureSize(uShadowMap, 0).x;
+    float mapSize = float(textureSize(uShadowMap, 0).x);
     DepthSlope slope = receiver.slope;
-    vec2 unsure = 2.0 * uSnap * slope.atMost + slope.atMost - abs(slope.value);
-    float S = uFollowPlane > 0.0 ? 0.5 / float(mapSize) * (unsure.x + unsure.y) : slopeBias(slope, receiver.q, mapSize);
-    return uBias * (S + reach + quantumBias(receiver.str.z) + roundingBias(slope, receiver.q, receiver.str.z));
+    float unsure = (1.0 + 2.0 * uSnap) * slope.atMost - abs(slope.value.x) - abs(slope.value.y);
+    float S = uFollowPlane > 0.0 ? 0.5 / mapSize * unsure : slopeBias(slope, receiver.perQ, mapSize);
+    return uBias * (S + reach + quantumBias(receiver.str.z) + roundingBias(slope, receiver.perQ, receiver.str.z));
 }
 // [end:kernel-bias]
 

@@ -7,7 +7,7 @@ uniform sampler2D uPattern;  // texel i: point i of the unit disk
 
 // Taps up to `radius` texels away in any direction: the most that z_s ds + z_t dt can be on a circle.
 float reachOfDisk(Receiver receiver, float radius) {
-    return radius * length(slopePerTexel(receiver));
+    return radius * slopePerTexel(receiver, length(receiver.slope.value));
 }
 
 // [begin:disk]

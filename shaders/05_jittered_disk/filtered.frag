@@ -9,9 +9,9 @@ in vec4 strq;
 out vec4 outColor;
 
 void main() {
-    Plane plane = receiverPlane(pWorld, nWorld, directionToLight(pWorld));
+    vec4 dx = dFdx(strq), dy = dFdy(strq);
     Receiver receiver;
     float S;
-    if (receiverOnMap(strq, plane, receiver, S)) S = diskVisibility(receiver);
+    if (receiverOnMap(strq, dx, dy, receiver, S)) S = diskVisibility(receiver);
     outColor = viewOf(pWorld, nWorld, vUv, S);
 }

@@ -30,21 +30,19 @@ std::unique_ptr<Chapter> chapter() {
 FloatImage visibilityOfChapter03(const Scene& scene, BiasMethod method) {
     ChapterHarness harness(chapter(), scene);
     Program depth("01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag");
-    Program biased("02_shadow_test/shadowed.vert", "03_polygon_offset/biased.frag");
+    Program biased("02_shadow_test/shadowed.vert", "03_polygon_offset/biased.frag", biasDefines(method));
     ShadowOptions options;
     std::optional<ShadowMap> held;
     const Frame frame = harness.frame("visibility", size);
     ShadowMap& map = options.provide(held, harness.capabilities());
     const LightFrustum frustum = fitLightFrustum(scene, scene.lights[0], frame.camera, 1.0);
     map.render(depth, frame, scene.lights[0], frustum);
-    glClearColor(0, 0, 0, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    clearPicture(frame, options);
     glEnable(GL_DEPTH_TEST);
     setCameraAndLight(biased, frame, options);
     setShadowMap(biased, map, frustum, scene.lights[0], "lit");
-    setDepthErrors(biased, bothPassesErrors(map, frustum, scene.bounds));
+    setDepthErrors(biased, bothPassesErrors(map, frustum, scene.bounds), frustum);
     biased.setTexture("uSecondLayer", GL_TEXTURE_2D, map.texture());
-    biased.set("uMethod", int(method));
     biased.set("uBias", 1.0f);
     biased.set("uConstantBias", 0.0f);
     biased.set("uView", 1);
@@ -394,10 +392,10 @@ TEST(Chapter04, ABrokenShaderIsCaught) {
          "lit += litByTexel(receiver, texelBeside(receiver.str.xy, vec2(i, j) - k + 1.0), bias);"},
         {"one column missing", pcf, "for (int i = 0; i < uKernelWidth; ++i)\n            lit += litByTexel",
          "for (int i = 1; i < uKernelWidth; ++i)\n            lit += litByTexel"},
-        {"bias of one tap", pcf, "return texels * (slope.x + slope.y);", "return 0.0;"},
+        {"bias of one tap", receiver, "return texels * slopePerTexel(", "return 0.0 * slopePerTexel("},
         {"bilinear footprint forgotten", pcf, "mix(0.5, 1.0, uFollowPlane)", "0.0"},
-        {"bilinear taps half a texel off", pcf, "vec2 st = receiver.str.xy + (vec2(i, j) - k) / mapSize;",
-         "vec2 st = receiver.str.xy + (vec2(i, j) - k + 0.5) / mapSize;"},
+        {"bilinear taps half a texel off", pcf, "(vec2(i, j) - k) / mapSize",
+         "(vec2(i, j) - k + 0.5) / mapSize"},
         {"plane followed backwards", receiver, "uFollowPlane * receiver.slope.value, st - receiver.str.xy",
          "uFollowPlane * receiver.slope.value, receiver.str.xy - st"},
         {"plane at the texel's corner", receiver, "vec2 centre = (vec2(texel) + 0.5)",
