@@ -11,15 +11,22 @@ uniform sampler3D uJitter;
 uniform usampler3D uJitter;
 #endif
 
+// How far the centre of a texel that a tap reads may lie from it, along s and along t.
+#ifdef JITTER_LECTURE
+const float footprintTexels = 1.0;
+#else
+const float footprintTexels = 0.5;
+#endif
+
 // What the tests of one point share.
 struct Taps {
-    vec2 st;        // the point on the map
-    float radius;   // of the disk, in s and t
-    float z;        // the depth to compare with at the point, and how it changes over the disk
+    vec2 st;       // the point on the map
+    vec2 radius;   // of the disk, in s and t
+    float z;       // the depth to compare with at the point, and how it changes over the disk
     vec2 zSlope;
-    float bias;     // away from the light is positive
-    ivec2 column;   // the pixel's pattern; rotation: unused
-    vec2 turn;      // rotation: cosine and sine of the pixel's angle
+    float bias;    // away from the light is positive
+    ivec2 column;  // the pixel's pattern; rotation: unused
+    vec2 turn;     // rotation: cosine and sine of the pixel's angle
 };
 
 // [begin:rotation]
@@ -33,17 +40,13 @@ vec2 randomTurn() {
 }
 // [end:rotation]
 
-Taps tapsOf(Receiver receiver) {
+// `radius`: texels along s and along t.
+Taps tapsOf(Receiver receiver, vec2 radius) {
     float mapSize = float(textureSize(uShadowMap, 0).x);
     // The sampler compares at the tap, not at the texel's centre up to half a texel away; bilinear, a texel away.
-    vec2 ownSlope = receiver.slope.atMost / mapSize;
-#ifdef JITTER_LECTURE
-    float footprint = (0.5 * uFollowPlane + 0.5) * (ownSlope.x + ownSlope.y);
-#else
-    float footprint = 0.5 * uFollowPlane * (ownSlope.x + ownSlope.y);
-#endif
-    float radius = uRadius / mapSize;
-    float bias = uFarther * kernelBias(receiver, reachOfDisk(receiver, uRadius) + footprint);
+    float footprint = (footprintTexels - 0.5 + 0.5 * uFollowPlane) * receiver.slope.atMost / mapSize;
+    float reach = reachOfDisk(receiver, max(radius.x, radius.y));
+    float bias = uFarther * kernelBias(receiver, reach + footprint);
     vec2 turn = vec2(1.0, 0.0);
 #ifdef JITTER_ROTATION
     turn = randomTurn();
@@ -51,7 +54,9 @@ Taps tapsOf(Receiver receiver) {
 #else
     ivec2 column = ivec2(gl_FragCoord.xy) % textureSize(uJitter, 0).xy;
 #endif
-    return Taps(receiver.str.xy, radius, receiver.str.z, radius * uFollowPlane * receiver.slope.value, bias, column, turn);
+    vec2 radiusSt = radius / mapSize;
+    return Taps(receiver.str.xy, radiusSt, receiver.str.z, radiusSt * uFollowPlane * receiver.slope.value, bias, column,
+                turn);
 }
 
 // [begin:tap]

@@ -10,7 +10,7 @@ out vec4 outColor;
 
 // [begin:jittered]
 float jitteredVisibility(Receiver receiver) {
-    Taps taps = tapsOf(receiver);
+    Taps taps = tapsOf(receiver, vec2(uRadius));
     float lit = 0.0;
     for (int chunk = 0; chunk < uSamples / 8; ++chunk) lit += litOfEight(taps, chunk);
     return lit / float(uSamples);
@@ -18,9 +18,9 @@ float jitteredVisibility(Receiver receiver) {
 // [end:jittered]
 
 void main() {
-    Plane plane = receiverPlane(pWorld, nWorld, directionToLight(pWorld));
+    vec4 dx = dFdx(strq), dy = dFdy(strq);
     Receiver receiver;
     float S;
-    if (receiverOnMap(strq, plane, receiver, S)) S = jitteredVisibility(receiver);
+    if (receiverOnMap(strq, dx, dy, receiver, S)) S = jitteredVisibility(receiver);
     outColor = viewOf(pWorld, nWorld, vUv, S);
 }

@@ -1,0 +1,102 @@
+#include "02_shadow_test/shading.glsl"
+#include "07_branching/classify.glsl"
+
+in vec3 pWorld;
+in vec3 nWorld;
+in vec2 vUv;
+in vec4 strq;
+
+uniform vec4 uCasters;        // s and t beside which nothing stands above the floor: lower, upper corner
+uniform float uNearestCaster; // oriented depth: larger is farther
+
+uniform float uRed;           // radiance that is shown as full red
+
+out vec4 outColor;
+
+// What a pixel cost.
+struct Work {
+    bool receives;   // on the map, facing the light: not known without looking
+    bool looked;     // at the map, or its minima and maxima
+    bool searched;   // all taps were taken
+};
+
+// [begin:out-of-reach]
+// Nothing that could cast a shadow lies between here and the light: known without the map. Where the bound on the bias does not
+// hold, the floor could shadow itself, and chapter 06 would show it.
+bool outOfReach(Receiver receiver) {
+    vec2 st = receiver.str.xy;
+    bool beside = any(lessThan(st, uCasters.xy)) || any(greaterThan(st, uCasters.zw));
+    return uBias >= 1.0 && receiver.slope.atMost < uSteepest * receiver.perQ &&
+           (beside || uFarther * receiver.str.z < uNearestCaster);
+}
+// [end:out-of-reach]
+
+// Tests chunks [first, end) of eight. A loop ends when no pixel of the group needs it, an `if` is run by all of them under a mask.
+float litOfChunks(Taps taps, int first, int end) {
+    float sum = 0.0;
+    for (int chunk = first; chunk < end; ++chunk) sum += litOfEight(taps, chunk);
+    return sum;
+}
+
+#if defined(CLASSIFY_PROBE)
+// [begin:probe]
+// The lecture's scheme: eight taps on the outer ring, and the other 56 only if they disagree.
+float branchedVisibility(Taps taps, inout Work work) {
+    int all = uSamples / 8;
+    float probe = litOfChunks(taps, 0, work.looked ? 1 : 0);
+    work.searched = work.looked && probe > 0.0 && probe < 8.0;
+#ifdef BRANCH_IF
+    if (work.searched) return (probe + litOfChunks(taps, 1, all)) / float(uSamples);
+    return probe / 8.0;
+#else
+    float rest = litOfChunks(taps, 1, work.searched ? all : 1);
+    return (probe + rest) / (work.searched ? float(uSamples) : 8.0);
+#endif
+}
+// [end:probe]
+#elif defined(CLASSIFY_MIN_MAX)
+// [begin:min-max]
+// The cure: the minima and maxima know about every texel that a tap could read.
+float branchedVisibility(Taps taps, inout Work work) {
+    float known = work.looked ? classify(taps) : lit;
+    work.searched = known == mixed;
+    int all = uSamples / 8;
+#ifdef BRANCH_IF
+    if (work.searched) return litOfChunks(taps, 0, all) / float(uSamples);
+    return known;
+#else
+    float sum = litOfChunks(taps, 0, work.searched ? all : 0);
+    return work.searched ? sum / float(uSamples) : known;
+#endif
+}
+// [end:min-max]
+#else
+float branchedVisibility(Taps taps, inout Work work) {
+    work.searched = true;
+    return litOfChunks(taps, 0, uSamples / 8) / float(uSamples);
+}
+#endif
+
+void main() {
+    vec3 toLight = directionToLight(pWorld);
+    vec4 dx = dFdx(strq), dy = dFdy(strq);
+    Receiver receiver;
+    float S;
+    bool onMap = receiverOnMap(strq, dx, dy, receiver, S);
+    Work work;
+    work.receives = onMap && dot(facingNormal(nWorld), toLight) > 0.0;
+    work.looked = work.receives && !outOfReach(receiver);
+    work.searched = false;
+#ifdef CLASSIFY_NONE
+    work.looked = onMap;
+#endif
+    float branched = branchedVisibility(tapsOf(receiver, vec2(uRadius)), work);
+    if (onMap) S = branched;
+
+    outColor = viewOf(pWorld, nWorld, vUv, S);
+    // [begin:red-pixels]
+    bool searched = work.searched && work.receives;
+    if (uView == 3 && searched) outColor = vec4(mix(outColor.rgb, vec3(uRed, 0.0, 0.0), 0.8), 1.0);
+    if (uView == 4) outColor = vec4(work.receives, work.looked && work.receives, searched, 1.0);
+    // [end:red-pixels]
+}

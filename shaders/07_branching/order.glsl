@@ -1,0 +1,5 @@
+// Floats as integers in the same order, so that one integer target, which OpenGL ES 3.0 can render to everywhere, holds depths
+// and differences of depths exactly. Its own inverse.
+ivec4 orderedBits(ivec4 bits) {
+    return bits ^ ((bits >> 31) & 0x7fffffff);
+}
