@@ -45,10 +45,11 @@ Value named(const std::vector<std::string>& names, const std::string& name, cons
     return Value(found - names.begin());
 }
 
-/// The point `index` of `count`, before the random shift.
-glm::dvec2 fibonacciPoint(int index, int count) {
-    const double turns = index * (std::numbers::phi - 1.0);
-    return {turns - std::floor(turns), (index + 0.5) / count};
+/// Each point in its own row of the square, a golden section further along than the last. One shift for all:
+/// along the rows, and within them.
+glm::dvec2 fibonacciPoint(int index, int count, const glm::dvec2& shift) {
+    const double turns = index * (std::numbers::phi - 1.0) + shift.x;
+    return {turns - std::floor(turns), (index + shift.y) / count};
 }
 
 }  // namespace
@@ -90,7 +91,7 @@ std::vector<glm::dvec2> squarePoints(SquarePattern pattern, int count, std::uint
                 points.push_back(cell.lower + cell.size * randomPair(index, seed));
                 break;
             case SquarePattern::fibonacci:
-                points.push_back(glm::fract(fibonacciPoint(i, count) + shift));
+                points.push_back(fibonacciPoint(i, count, shift));
                 break;
             case SquarePattern::sobol:
                 points.push_back(owenSobol(index, hashSeed(seed)));

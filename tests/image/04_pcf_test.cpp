@@ -10,6 +10,7 @@
 
 #include "common/truth/edge_coverage.h"
 #include "tests/image/bias_scenes.h"
+#include "tests/image/earlier_chapters.h"
 #include "tests/image/edge_scene.h"
 #include "tests/image/image_check.h"
 #include "tests/image/mutated_shaders.h"
@@ -26,30 +27,6 @@ std::unique_ptr<Chapter> chapter() {
 
 // --- one tap is chapter 03 ---
 
-/// Chapter 03's program, fed as its main.cpp feeds it: `method` slope or receiver-plane.
-FloatImage visibilityOfChapter03(const Scene& scene, BiasMethod method) {
-    ChapterHarness harness(chapter(), scene);
-    Program depth("01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag");
-    Program biased("02_shadow_test/shadowed.vert", "03_polygon_offset/biased.frag", biasDefines(method));
-    ShadowOptions options;
-    std::optional<ShadowMap> held;
-    const Frame frame = harness.frame("visibility", size);
-    ShadowMap& map = options.provide(held, harness.capabilities());
-    const LightFrustum frustum = fitLightFrustum(scene, scene.lights[0], frame.camera, 1.0);
-    map.render(depth, frame, scene.lights[0], frustum);
-    clearPicture(frame, options);
-    glEnable(GL_DEPTH_TEST);
-    setCameraAndLight(biased, frame, options);
-    setShadowMap(biased, map, frustum, scene.lights[0], "lit");
-    setDepthErrors(biased, bothPassesErrors(map, frustum, scene.bounds), frustum);
-    biased.setTexture("uSecondLayer", GL_TEXTURE_2D, map.texture());
-    biased.set("uBias", 1.0f);
-    biased.set("uConstantBias", 0.0f);
-    biased.set("uView", 1);
-    drawPicture(biased, frame);
-    return harness.readBack(1);
-}
-
 TEST(Chapter04, OneTapIsChapter03) {
     for (const std::string& name : testScenes()) {
         for (const bool plane : {false, true}) {
@@ -58,8 +35,8 @@ TEST(Chapter04, OneTapIsChapter03) {
             harness.set("receiver-plane", plane ? "true" : "false");
             const BiasMethod method = plane ? BiasMethod::receiverPlane : BiasMethod::slope;
             expectImage("04_pcf/" + shortName(name) + (plane ? "/one_tap_plane" : "/one_tap"),
-                        harness.scalar("visibility", size), visibilityOfChapter03(testScene(name), method),
-                        {}, {.maxAbs = 0.0});
+                        harness.scalar("visibility", size), visibilityOfChapter03(harness, size, method), {},
+                        {.maxAbs = 0.0});
         }
     }
 }
