@@ -200,7 +200,7 @@ TEST(Chapter04, TheFiltersTruthIsTheClosedFormAtAnEdge) {
 
 class AgainstTruth : public testing::TestWithParam<std::string> {};
 
-/// What texels cannot tell of a box 7 wide, times the share of pixels in a penumbra: measured 0.0074, 0.016
+/// What texels cannot tell of a box 7 wide, times the share of pixels in a penumbra: measured 0.0066, 0.015
 /// and 0.018 with nearest taps, with a third of reserve. The samplers' four tests share one depth, so they
 /// ask for a texel's slope of bias, and light leaks where leaves touch: 0.032 in the courtyard, 0.005 of it
 /// bias. The engine's fins are slivers, which turn over when the rasteriser snaps their corners: a few single
@@ -209,7 +209,7 @@ ImageBounds errorBounds(const std::string& scene, bool bilinear) {
     if (scene == thirdPartyModel)
         return {.meanAbs = bilinear ? 0.03 : 0.02, .absBias = bilinear ? 0.015 : 0.003};
     if (scene == "courtyard") return {.rmse = bilinear ? 0.042 : 0.024, .absBias = bilinear ? 0.007 : 0.001};
-    return {.rmse = scene == "contact" ? 0.021 : 0.01, .absBias = 0.001};
+    return {.rmse = scene == "contact" ? 0.02 : 0.0088, .absBias = 0.001};
 }
 
 double rmseOf(ChapterHarness& harness) {

@@ -163,7 +163,7 @@ TEST(DiskPattern, MeansAreUnbiased) {
 }
 
 TEST(DiskPattern, WithoutTheSquareRootItNeverConverges) {
-    // Symmetric edges cancel; at one distance they don't. The worst is 0.087 (at 0.41 of the radius).
+    // Symmetric edges cancel; at one distance they don't. The worst is 0.088, at 0.29 of the radius.
     double worst = 0;
     const auto points = diskPattern(SquarePattern::sobol, DiskMap::polarLinear, 1 << 16, 1);
     const auto good = diskPattern(SquarePattern::sobol, DiskMap::polar, 1 << 16, 1);
@@ -171,7 +171,7 @@ TEST(DiskPattern, WithoutTheSquareRootItNeverConverges) {
         worst = std::max(worst, std::abs(litShare(points, {1, 0}, d) - diskCoverage(d, 1.0)));
         EXPECT_NEAR(litShare(good, {1, 0}, d), diskCoverage(d, 1.0), 1e-3);
     }
-    EXPECT_NEAR(worst, 0.087, 0.002);
+    EXPECT_NEAR(worst, 0.088, 0.001);
 }
 
 TEST(DiskPattern, NamesAreChecked) {
