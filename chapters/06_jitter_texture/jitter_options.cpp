@@ -1,5 +1,7 @@
 #include "chapters/06_jitter_texture/jitter_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace penumbra {
@@ -21,13 +23,14 @@ void JitterOptions::declare(Parameters& parameters) {
     bias.declare(parameters);
 }
 
-std::vector<std::string> JitterOptions::defines() const {
+std::vector<std::string> JitterOptions::defines(int view) const {
     const PolarGrid checked(samples);
-    if (method == "rotation") return {"JITTER_ROTATION"};
-    if (layout == "packed16") return {"JITTER_PACKED16"};
-    if (layout == "snorm8") return {"JITTER_SNORM8"};
-    if (layout == "lecture") return {"JITTER_LECTURE"};
-    return {"JITTER_PACKED8"};
+    const std::string shown = fmt::format("VIEW {}", view);
+    if (method == "rotation") return {shown, "JITTER_ROTATION"};
+    if (layout == "packed16") return {shown, "JITTER_PACKED16"};
+    if (layout == "snorm8") return {shown, "JITTER_SNORM8"};
+    if (layout == "lecture") return {shown, "JITTER_LECTURE"};
+    return {shown, "JITTER_PACKED8"};
 }
 
 void JitterOptions::set(Program& program, const ShadowMap& map, const LightFrustum& frustum,

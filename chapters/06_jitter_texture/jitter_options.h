@@ -19,8 +19,9 @@ class JitterOptions {
 
     /// Declares --radius, --samples, --method, --tile, --order, --layout, --receiver-plane and --bias.
     void declare(Parameters& parameters);
-    /// What jitter.glsl has to be compiled with. Throws UsageError: samples that make no pattern.
-    std::vector<std::string> defines() const;
+    /// What shaders with jitter.glsl have to be compiled with. `view`: uView of shading.glsl. Throws
+    /// UsageError: samples that make no pattern.
+    std::vector<std::string> defines(int view) const;
     /// Sets all uniforms of jitter.glsl but those of setShadowMap. Makes pattern and sampler when they
     /// changed.
     void set(Program& program, const ShadowMap& map, const LightFrustum& frustum, const Frame& frame);

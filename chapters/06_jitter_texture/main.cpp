@@ -46,11 +46,10 @@ class JitterTextureChapter : public Chapter {
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
         glEnable(GL_DEPTH_TEST);
-        Program& jittered = jittered_->with(jitter_.defines());
+        Program& jittered = jittered_->with(jitter_.defines(viewNumber(frame.view)));
         setCameraAndLight(jittered, frame, options_);
         setShadowMap(jittered, map, frustum, light, outside_);
         jitter_.set(jittered, map, frustum, frame);
-        jittered.set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
         drawPicture(jittered, frame);
         // [end:passes]
         frame.work["tests_per_pixel"] = jitter_.samples;
@@ -75,6 +74,10 @@ class JitterTextureChapter : public Chapter {
     }
 
  private:
+    static int viewNumber(const std::string& view) {
+        return view == "visibility" ? 1 : view == "shadow-kind" ? 2 : 0;
+    }
+
     ShadowOptions options_;
     std::string outside_ = "lit";
     JitterOptions jitter_;

@@ -1,5 +1,7 @@
 #include "chapters/07_branching/branching_options.h"
 
+#include <fmt/format.h>
+
 namespace penumbra {
 
 void BranchingOptions::declare(Parameters& parameters) {
@@ -17,12 +19,13 @@ void BranchingOptions::load(const Scene& scene) {
     floor_.emplace(scene);
 }
 
-std::vector<std::string> BranchingOptions::defines() const {
-    std::vector<std::string> defines = jitter.defines();
+std::vector<std::string> BranchingOptions::defines(int view) const {
+    std::vector<std::string> defines = jitter.defines(view);
     defines.push_back(classify == "min-max" ? "CLASSIFY_MIN_MAX"
                       : classify == "probe" ? "CLASSIFY_PROBE"
                                             : "CLASSIFY_NONE");
-    if (branch == "if") defines.push_back("BRANCH_IF");
+    // The bound of the loop is a constant then, and the compiler writes the tests out one after the other.
+    if (branch == "if") defines.push_back(fmt::format("BRANCH_IF {}", jitter.samples / 8));
     return defines;
 }
 

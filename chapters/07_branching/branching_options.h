@@ -21,8 +21,8 @@ class BranchingOptions {
     void declare(Parameters& parameters);
     /// Call it when a chapter loads a scene.
     void load(const Scene& scene);
-    /// What branching.frag has to be compiled with.
-    std::vector<std::string> defines() const;
+    /// What branching.frag has to be compiled with for `view`: 3 is the work, 4 what it is counted from.
+    std::vector<std::string> defines(int view) const;
     /// Makes what classification needs (once for each map), and sets all uniforms of branching.frag but those
     /// of setShadowMap.
     void set(Program& program, const ShadowMap& map, const LightFrustum& frustum, const Light& light,

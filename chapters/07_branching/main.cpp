@@ -45,19 +45,18 @@ class Branching : public Chapter {
         if (frame.view == "depth") return showDepth(frame, map, frustum);
 
         // Pass 1b: minimum and maximum around each texel, when the map is new.
-        Program& branched = branched_->with(branching_.defines());
+        Program& branched = branched_->with(branching_.defines(viewNumber(frame.view)));
         branching_.set(branched, map, frustum, light, frame);
 
         // Pass 2: the picture, all taps only where they may disagree.
         setCameraAndLight(branched, frame, options_);
         setShadowMap(branched, map, frustum, light, outside_);
-        branched.set("uRed", 0.7f / exposure(frame.scene, options_.light));
-        countWork(frame, branched);
+        branched.set("uRed", 1.0f / exposure(frame.scene, options_.light));
+        countWork(frame, map, frustum);
         const PassScope scope(frame.passTimer, "shading");
         glClearColor(0, 0, 0, 1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
-        branched.set("uView", viewNumber(frame.view));
         drawPicture(branched, frame);
         // [end:passes]
     }
@@ -93,13 +92,17 @@ class Branching : public Chapter {
     }
 
     /// In a frame in which something changed only; not part of the shading pass.
-    void countWork(const Frame& frame, Program& branched) {
+    void countWork(const Frame& frame, const ShadowMap& map, const LightFrustum& frustum) {
         const glm::dmat4 seen = clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y);
         std::string state = parameters_->toJson(true) + std::to_string(frame.seed);
         state.append(reinterpret_cast<const char*>(&seen), sizeof seen);
         const PixelCounts& counted = count_->count(frame, state, [&] {
-            branched.set("uView", 4);
-            frame.gpu->drawShaded(branched, allClusters(frame.scene));
+            Program& flags = branched_->with(branching_.defines(4));
+            const Light& light = options_.chosenLight(frame.scene);
+            branching_.set(flags, map, frustum, light, frame);
+            setCameraAndLight(flags, frame, options_);
+            setShadowMap(flags, map, frustum, light, outside_);
+            frame.gpu->drawShaded(flags, allClusters(frame.scene));
         });
         branching_.count(counted, frame.work);
     }

@@ -10,14 +10,14 @@
 
 namespace penumbra {
 
-/// Texels of 4 x 4 blocks, dilated by the kernel's reach: texel i stands for the blocks from i - before() on,
+/// Blocks of 8 x 8 texels, dilated by the kernel's reach: texel i stands for the blocks from i - before() on,
 /// `window()` of them in each direction. Three minima, of depth measured from three planes, and a maximum.
 ///
 /// Guennebaud, Barthe & Paulin (2006, EGSR) and Decoret (2005, "N-buffers", Eurographics) keep minima and
 /// maxima for kernels of all sizes; for one size a window of that size is tighter and takes one look-up.
 class MinMaxMap {
  public:
-    static constexpr int block = 4;  ///< texels along a side; the shaders know it too
+    static constexpr int block = 8;  ///< texels along a side; the shaders know it too
 
     /// `gather`: read four texels in one look-up, where the context can.
     explicit MinMaxMap(bool gather);

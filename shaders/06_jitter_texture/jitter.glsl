@@ -52,7 +52,8 @@ Taps tapsOf(Receiver receiver, vec2 radius) {
     turn = randomTurn();
     ivec2 column = ivec2(0);
 #else
-    ivec2 column = ivec2(gl_FragCoord.xy) % textureSize(uJitter, 0).xy;
+    // mod, not %: CPUs divide floats eight at a time, and integers one by one.
+    ivec2 column = ivec2(mod(gl_FragCoord.xy, vec2(textureSize(uJitter, 0).xy)));
 #endif
     vec2 radiusSt = radius / mapSize;
     return Taps(receiver.str.xy, radiusSt, receiver.str.z, radiusSt * uFollowPlane * receiver.slope.value, bias, column,

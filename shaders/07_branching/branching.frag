@@ -31,12 +31,40 @@ bool outOfReach(Receiver receiver) {
 }
 // [end:out-of-reach]
 
-// Tests chunks [first, end) of eight. A loop ends when no pixel of the group needs it, an `if` is run by all of them under a mask.
+// [begin:loop-or-if]
+// Tests chunks [first, end) of eight: a loop ends when no pixel of the group needs it.
 float litOfChunks(Taps taps, int first, int end) {
     float sum = 0.0;
     for (int chunk = first; chunk < end; ++chunk) sum += litOfEight(taps, chunk);
     return sum;
 }
+
+#ifdef BRANCH_IF
+// The same written out. In an `if`, a CPU rasteriser runs all of it under a mask, needed or not.
+float chunk(Taps taps, int first, int index) {
+    if (index < first || index >= BRANCH_IF) return 0.0;
+    return litOfEight(taps, index);
+}
+float fourChunks(Taps taps, int first, int index) {
+    return chunk(taps, first, index) + chunk(taps, first, index + 1) + chunk(taps, first, index + 2) +
+           chunk(taps, first, index + 3);
+}
+float litOfRest(Taps taps, int first) {
+    float sum = fourChunks(taps, first, 0);
+#if BRANCH_IF > 4
+    sum += fourChunks(taps, first, 4);
+#endif
+#if BRANCH_IF > 8
+    sum += fourChunks(taps, first, 8) + fourChunks(taps, first, 12);
+#endif
+#if BRANCH_IF > 16
+    sum += fourChunks(taps, first, 16) + fourChunks(taps, first, 20) + fourChunks(taps, first, 24) +
+           fourChunks(taps, first, 28);
+#endif
+    return sum;
+}
+#endif
+// [end:loop-or-if]
 
 #if defined(CLASSIFY_PROBE)
 // [begin:probe]
@@ -49,7 +77,7 @@ float branchedVisibility(Taps taps, inout Work work) {
     if (work.searched) return (probe + litOfChunks(taps, 1, all)) / float(uSamples);
     return probe / 8.0;
 #else
-    float rest = litOfChunks(taps, 1, work.searched ? all : 1);
+    float rest = litOfChunks(taps, 1, work.searched ? uSamples / 8 : 1);
     return (probe + rest) / (work.searched ? float(uSamples) : 8.0);
 #endif
 }
@@ -60,12 +88,11 @@ float branchedVisibility(Taps taps, inout Work work) {
 float branchedVisibility(Taps taps, inout Work work) {
     float known = work.looked ? classify(taps) : lit;
     work.searched = known == mixed;
-    int all = uSamples / 8;
 #ifdef BRANCH_IF
-    if (work.searched) return litOfChunks(taps, 0, all) / float(uSamples);
+    if (work.searched) return litOfRest(taps, 0) / float(uSamples);
     return known;
 #else
-    float sum = litOfChunks(taps, 0, work.searched ? all : 0);
+    float sum = litOfChunks(taps, 0, work.searched ? uSamples / 8 : 0);
     return work.searched ? sum / float(uSamples) : known;
 #endif
 }
@@ -96,7 +123,7 @@ void main() {
     outColor = viewOf(pWorld, nWorld, vUv, S);
     // [begin:red-pixels]
     bool searched = work.searched && work.receives;
-    if (uView == 3 && searched) outColor = vec4(mix(outColor.rgb, vec3(uRed, 0.0, 0.0), 0.8), 1.0);
+    if (uView == 3 && searched) outColor = vec4(uRed * vec3(0.9, 0.05, 0.02), 1.0);
     if (uView == 4) outColor = vec4(work.receives, work.looked && work.receives, searched, 1.0);
     // [end:red-pixels]
 }

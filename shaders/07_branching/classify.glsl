@@ -1,6 +1,6 @@
 // Lit, dark or mixed, for all taps of a kernel at once, from one look-up.
 #include "06_jitter_texture/jitter.glsl"
-#include "07_branching/order.glsl"
+#include "07_branching/blocks.glsl"
 
 uniform isampler2D uMinMax;
 uniform float uReach;   // texels around a point that one texel of uMinMax stands for, at least
@@ -13,7 +13,7 @@ const float dark = 0.0, lit = 1.0, mixed = 0.5;
 // The nearest depth of the window around `st`, measured from the three planes, and minus the farthest depth.
 vec4 nearestAround(vec2 st) {
     vec2 corner = floor(st * vec2(textureSize(uShadowMap, 0)) - uReach);
-    return intBitsToFloat(orderedBits(texelFetch(uMinMax, (ivec2(corner) >> 2) + uBefore, 0)));
+    return intBitsToFloat(orderedBits(texelFetch(uMinMax, ivec2(floor(corner / float(block))) + uBefore, 0)));
 }
 
 // [begin:surely-lit]

@@ -1,8 +1,8 @@
-// The map in blocks of 4 x 4 texels: the nearest depth, measured from three planes, and the farthest. 1024^2 texels become 256^2.
+// The map in blocks of 8 x 8 texels: the nearest depth, measured from three planes, and the farthest. 1024^2 texels become 128^2.
 #ifdef USE_GATHER
 #extension GL_ARB_texture_gather : require
 #endif
-#include "07_branching/order.glsl"
+#include "07_branching/blocks.glsl"
 
 uniform sampler2D uShadowMap;
 uniform float uFarther;
@@ -10,16 +10,18 @@ uniform vec2 uSlope0, uSlope1, uSlope2;  // of the planes: change of depth for t
 
 layout(location = 0) out ivec4 outBits;
 
+float smallest(vec4 v) {
+    vec2 m = min(v.xy, v.zw);
+    return min(m.x, m.y);
+}
+
 // [begin:measure-from-planes]
 // On a slope the nearest depth of a block says little: it is the slope's own. Measured from a plane of the same slope, all depths
-// of the slope are equal, and whatever stands on it is nearer. Four texels in a row, each component one of them.
-vec4 nearestOfRow(vec4 depth, vec2 first, float texel) {
-    vec4 s = first.x + texel * vec4(0.0, 1.0, 2.0, 3.0);
-    vec4 e0 = depth - (uSlope0.x * s + uSlope0.y * first.y);
-    vec4 e1 = depth - (uSlope1.x * s + uSlope1.y * first.y);
-    vec4 e2 = depth - (uSlope2.x * s + uSlope2.y * first.y);
-    vec2 m0 = min(e0.xy, e0.zw), m1 = min(e1.xy, e1.zw), m2 = min(e2.xy, e2.zw), far = max(depth.xy, depth.zw);
-    return vec4(min(m0.x, m0.y), min(m1.x, m1.y), min(m2.x, m2.y), -max(far.x, far.y));
+// of the slope are equal, and whatever stands on it is nearer. Four texels in a row, each component one of them; along s the
+// planes are the same for every row.
+vec4 nearestOfRow(vec4 depth, vec4 plane0, vec4 plane1, vec4 plane2, float t) {
+    return vec4(smallest(depth - plane0) - uSlope0.y * t, smallest(depth - plane1) - uSlope1.y * t,
+                smallest(depth - plane2) - uSlope2.y * t, smallest(-depth));
 }
 // [end:measure-from-planes]
 
@@ -41,17 +43,25 @@ vec4 row(ivec2 texel, ivec2 last) {
 #endif
 
 void main() {
-    ivec2 texel = 4 * ivec2(gl_FragCoord.xy), size = textureSize(uShadowMap, 0);
+    ivec2 corner = block * ivec2(gl_FragCoord.xy), size = textureSize(uShadowMap, 0);
     float step = 1.0 / float(size.x);
-    vec4 rows[4];
-#ifdef USE_GATHER
-    twoRows(texel, vec2(size), rows[0], rows[1]);
-    twoRows(texel + ivec2(0, 2), vec2(size), rows[2], rows[3]);
-#else
-    for (int j = 0; j < 4; ++j) rows[j] = row(texel + ivec2(0, j), size - 1);
-#endif
     vec4 nearest = vec4(3.4e38);
-    for (int j = 0; j < 4; ++j)
-        nearest = min(nearest, nearestOfRow(uFarther * rows[j], (vec2(texel) + vec2(0.5, float(j) + 0.5)) * step, step));
+    for (int i = 0; i < block; i += 4) {
+        vec4 s = (float(corner.x + i) + vec4(0.5, 1.5, 2.5, 3.5)) * step;
+        vec4 plane0 = uSlope0.x * s, plane1 = uSlope1.x * s, plane2 = uSlope2.x * s;
+        for (int j = 0; j < block; j += 2) {
+            ivec2 texel = corner + ivec2(i, j);
+            vec4 lower, upper;
+#ifdef USE_GATHER
+            twoRows(texel, vec2(size), lower, upper);
+#else
+            lower = row(texel, size - 1);
+            upper = row(texel + ivec2(0, 1), size - 1);
+#endif
+            float t = (float(texel.y) + 0.5) * step;
+            nearest = min(nearest, nearestOfRow(uFarther * lower, plane0, plane1, plane2, t));
+            nearest = min(nearest, nearestOfRow(uFarther * upper, plane0, plane1, plane2, t + step));
+        }
+    }
     outBits = orderedBits(floatBitsToInt(nearest));
 }

@@ -71,7 +71,8 @@ class ChapterHarness {
                 .skip = skip,
                 .cpuPicture = &unused_,
                 .progress = silent_,
-                .passTimer = passTimer};
+                .passTimer = passTimer,
+                .renderMapsAgain = renderMapsAgain};
     }
 
     /// Draws, and waits until it is drawn.
@@ -101,9 +102,10 @@ class ChapterHarness {
     }
 
     const Scene& scene;
-    Camera camera;      ///< the scene's first, to be changed at will
-    bool skip = true;   ///< false: --skip-none
-    WorkCounters work;  ///< of the latest picture
+    Camera camera;                 ///< the scene's first, to be changed at will
+    bool skip = true;              ///< false: --skip-none
+    bool renderMapsAgain = false;  ///< as a timed frame does
+    WorkCounters work;             ///< of the latest picture
     PassTimer* passTimer = nullptr;
 
  private:
