@@ -60,10 +60,8 @@ std::vector<Plane> sidePlanes(const LightFrustum& frustum) {
             frustum.halfExtent.y * spread + up, frustum.halfExtent.y * spread - up};
 }
 
-/// The part of the scene that the camera sees and the light can reach.
-Points receivers(const Scene& scene, const Light& light, const Camera& camera, double aspect) {
-    const Frustum seen(clipFromWorld(camera, aspect));
-    std::vector<Plane> planes(seen.planes.begin(), seen.planes.end());
+/// The part of the scene that the light can reach, inside `planes`: the surfaces that can be lit at all.
+Points receivers(const Scene& scene, const Light& light, std::vector<Plane> planes) {
     if (light.type == LightType::spot || light.type == LightType::area)
         planes.emplace_back(light.direction, -glm::dot(light.direction, light.position));
     if (light.type == LightType::spot) {
@@ -75,7 +73,7 @@ Points receivers(const Scene& scene, const Light& light, const Camera& camera, d
     Points points;
     for (const Cluster& cluster : scene.clusters)
         if (int(cluster.part) != light.part) appendClipped(scene, cluster, planes, true, points);
-    // A camera that sees nothing still gets a map: of the whole scene.
+    // A light that reaches nothing, or a camera that sees nothing, still gets a map: of the whole scene.
     if (points.empty())
         for (int i = 0; i < 8; ++i) points.push_back(scene.bounds.corner(i));
     return points;
@@ -144,14 +142,10 @@ void fitPyramid(LightFrustum& frustum, const Points& points, double widestTangen
     frustum.halfExtent = glm::min(frustum.halfExtent, glm::dvec2(widestTangent));
 }
 
-}  // namespace
-
 // [begin:fit]
-LightFrustum fitLightFrustum(const Scene& scene, const Light& light, const Camera& camera, double aspect,
-                             DepthRange range) {
+LightFrustum fit(const Scene& scene, const Light& light, const Points& points, DepthRange range) {
     // So that a receiver exactly on a side is still inside after rounding to float.
     constexpr double margin = 1e-3;
-    const Points points = receivers(scene, light, camera, aspect);
 
     LightFrustum frustum;
     frustum.range = range;
@@ -182,5 +176,17 @@ LightFrustum fitLightFrustum(const Scene& scene, const Light& light, const Camer
     return frustum;
 }
 // [end:fit]
+
+}  // namespace
+
+LightFrustum fitLightFrustum(const Scene& scene, const Light& light, DepthRange range) {
+    return fit(scene, light, receivers(scene, light, {}), range);
+}
+
+LightFrustum fitLightFrustum(const Scene& scene, const Light& light, const Camera& camera, double aspect,
+                             DepthRange range) {
+    const Frustum seen(clipFromWorld(camera, aspect));
+    return fit(scene, light, receivers(scene, light, {seen.planes.begin(), seen.planes.end()}), range);
+}
 
 }  // namespace penumbra

@@ -41,12 +41,16 @@ struct LightFrustum {
     bool operator==(const LightFrustum&) const = default;
 };
 
-/// Fits the frustum to what matters: laterally to the surfaces that the camera sees and the light reaches,
-/// `far` to the last of those receivers, `near` to the first caster in front of them. Depth resolution is
-/// proportional to near, lateral resolution to the extent: a frustum twice too wide costs as much as half the
-/// map. A point light is aimed at its receivers and can hold at most `widestHalfAngle` of them to each side;
-/// what does not fit is "outside the map" (chapter 02 decides what that means). A spot light keeps its axis,
-/// an area light counts as a point at its centre. `aspect` = width / height of the camera's picture.
+/// Fits the frustum to what matters: laterally to the surfaces that the light reaches, `far` to the last of
+/// these receivers, `near` to the first caster in front of them. Depth resolution is proportional to near,
+/// lateral resolution to the extent: a frustum twice too wide costs as much as half the map. A point light is
+/// aimed at its receivers and can hold at most `widestHalfAngle` of them to each side; what does not fit is
+/// "outside the map" (chapter 02 decides what that means). A spot light keeps its axis, an area light counts
+/// as a point at its centre.
+LightFrustum fitLightFrustum(const Scene& scene, const Light& light, DepthRange range = DepthRange::standard);
+
+/// The same, to the surfaces that the camera sees as well (`aspect` = width / height of its picture): finer
+/// texels, but a map for each pose of the camera, and edges that crawl while it moves.
 LightFrustum fitLightFrustum(const Scene& scene, const Light& light, const Camera& camera, double aspect,
                              DepthRange range = DepthRange::standard);
 

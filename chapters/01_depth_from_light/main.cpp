@@ -29,8 +29,7 @@ class DepthFromLight : public Chapter {
         // Pass 1: the scene from the light, depth alone.
         ShadowMap& map = options_.provide(map_, frame.context->capabilities());
         const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum frustum =
-            fitLightFrustum(frame.scene, light, frame.camera, aspect(frame.size), depthRange(map.format()));
+        const LightFrustum& frustum = options_.frustum(frame, map);
         map.render(*depth_, frame, light, frustum);
 
         // Pass 2: the picture. Without shadows, from the camera or from the light, or the map itself.
@@ -51,8 +50,7 @@ class DepthFromLight : public Chapter {
                 "--compare-truth: chapter 01 has an exact answer for --view depth and linear-depth");
         const DepthFormat format = depthFormat(options_.depthFormat, request.context->capabilities());
         const Light& light = options_.chosenLight(request.scene);
-        const LightFrustum frustum =
-            fitLightFrustum(request.scene, light, request.camera, aspect(request.size), depthRange(format));
+        const LightFrustum& frustum = options_.frustum(request.scene, request.camera, request.size, format);
         return depthTruth(request.tracer, frustum, request.size, options_.mapSize, format, light.part,
                           request.view == "linear-depth", request.progress);
     }
@@ -60,8 +58,6 @@ class DepthFromLight : public Chapter {
     std::vector<Program*> programs() override { return {&*depth_, &*lit_, &depthView_->program()}; }
 
  private:
-    static double aspect(const glm::ivec2& size) { return double(size.x) / size.y; }
-
     void drawFromCamera(const Frame& frame) {
         glEnable(GL_DEPTH_TEST);
         setCameraAndLight(*lit_, frame, options_);

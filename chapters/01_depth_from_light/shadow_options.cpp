@@ -13,6 +13,27 @@ void ShadowOptions::declare(Parameters& parameters) {
                    "side of the shadow map; 64: staircases, 4096: fine, slow and mostly wasted");
     parameters.add("depth-format", depthFormat, depthFormatNames(),
                    "bits of a depth; 16: far surfaces fall into steps; 32f-reversed needs glClipControl");
+    parameters.add(
+        "fit", fit, {"scene", "view"},
+        "what the map holds: all that the light reaches, so that it is drawn once, or what the camera "
+        "sees of it, with finer texels whose edges crawl while the camera moves");
+}
+
+bool ShadowOptions::Fitted::sameAs(const Fitted& other) const {
+    return scene == other.scene && light == other.light && range == other.range && camera == other.camera &&
+           (!camera || aspect == other.aspect);
+}
+
+const LightFrustum& ShadowOptions::frustum(const Scene& scene, const Camera& camera,
+                                           const glm::ivec2& pictureSize, DepthFormat format) const {
+    Fitted wanted{&scene, light, depthRange(format), std::nullopt, double(pictureSize.x) / pictureSize.y};
+    if (fit == "view") wanted.camera = camera;
+    if (fitted_ && fitted_->sameAs(wanted)) return fitted_->frustum;
+    const Light& chosen = chosenLight(scene);
+    wanted.frustum = wanted.camera ? fitLightFrustum(scene, chosen, camera, wanted.aspect, wanted.range)
+                                   : fitLightFrustum(scene, chosen, wanted.range);
+    fitted_ = wanted;
+    return fitted_->frustum;
 }
 
 const Light& ShadowOptions::chosenLight(const Scene& scene) const {

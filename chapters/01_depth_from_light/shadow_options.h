@@ -13,13 +13,34 @@ struct ShadowOptions {
     int light = 0;
     int mapSize = 1024;
     std::string depthFormat = "24";
+    std::string fit = "scene";
 
-    /// Declares --light, --map-size and --depth-format.
+    /// Declares --light, --map-size, --depth-format and --fit.
     void declare(Parameters& parameters);
     /// The chosen light. Throws UsageError when the scene has fewer.
     const Light& chosenLight(const Scene& scene) const;
     /// `map` as it is if it has the wanted size and format, else a new one in its place.
     ShadowMap& provide(std::optional<ShadowMap>& map, const Capabilities& capabilities) const;
+    /// The chosen light as a camera for a map of that format, fitted anew only when something it depends on
+    /// changed.
+    const LightFrustum& frustum(const Scene& scene, const Camera& camera, const glm::ivec2& pictureSize,
+                                DepthFormat format) const;
+    const LightFrustum& frustum(const Frame& frame, const ShadowMap& map) const {
+        return frustum(frame.scene, frame.camera, frame.size, map.format());
+    }
+
+ private:
+    /// All that a fit depends on. Scenes are immutable once loaded, so the pointer stands for its surfaces.
+    struct Fitted {
+        const Scene* scene;
+        int light;
+        DepthRange range;
+        std::optional<Camera> camera;  ///< none: fitted to the scene, whatever the camera sees
+        double aspect;
+        LightFrustum frustum{};
+        bool sameAs(const Fitted& other) const;
+    };
+    mutable std::optional<Fitted> fitted_;
 };
 
 /// Sets the uniforms of lit.vert and lit.frag that don't belong to a material: camera, light, ambient term.

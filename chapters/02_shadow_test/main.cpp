@@ -32,20 +32,18 @@ class ShadowTest : public Chapter {
         // Pass 1: the scene from the light, depth alone (chapter 01).
         ShadowMap& map = options_.provide(map_, frame.context->capabilities());
         const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum frustum = fitLightFrustum(
-            frame.scene, light, frame.camera, double(frame.size.x) / frame.size.y, depthRange(map.format()));
+        const LightFrustum& frustum = options_.frustum(frame, map);
         map.render(*depth_, frame, light, frustum);
 
         // Pass 2: the picture, each fragment compared with the map.
         const PassScope scope(frame.passTimer, "shading");
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        clearPicture(frame, options_);
         if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
         glEnable(GL_DEPTH_TEST);
         setCameraAndLight(*shadowed_, frame, options_);
         setShadowMap(*shadowed_, map, frustum, light, outside_);
         shadowed_->set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
-        frame.gpu->drawShaded(*shadowed_, seenByCamera(frame));
+        drawPicture(*shadowed_, frame);
         // [end:passes]
     }
 

@@ -41,8 +41,7 @@ class PolygonOffset : public Chapter {
         const BiasMethod method = biasMethod(method_);
         ShadowMap& map = options_.provide(map_, frame.context->capabilities());
         const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum frustum = fitLightFrustum(
-            frame.scene, light, frame.camera, double(frame.size.x) / frame.size.y, depthRange(map.format()));
+        const LightFrustum& frustum = options_.frustum(frame, map);
         const DepthErrors errors = bothPassesErrors(map, frustum, frame.scene.bounds);
         const CasterDraw draw = casterDraw(method, map, frustum, errors, bias_);
         map.render(*depth_, frame, light, frustum, draw);

@@ -89,6 +89,8 @@ struct Camera {
     double height = 2.0;       ///< metres, full height of the view (orthographic)
     double near = 0.05;        ///< metres
     double far = 100.0;        ///< metres
+
+    bool operator==(const Camera&) const = default;
 };
 
 struct Scene {

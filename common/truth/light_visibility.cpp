@@ -14,8 +14,9 @@ namespace penumbra {
 
 namespace {
 
-/// Triangles in the way of a light above which rays take less time than cones do.
-constexpr std::size_t mostOccluders = 128;
+/// Triangles in the way of a light above which rays answer instead of cones. Measured on courtyard, light 2,
+/// 256x256: 128 takes 16.0 s of CPU and traces 21302 pixels, 384 takes 14.2 s and traces 16502.
+constexpr std::size_t mostOccluders = 384;
 
 /// The part of a polygon above the plane through `x` with normal `n`; of any number of corners.
 std::vector<glm::dvec3> above(const glm::dvec3& x, const glm::dvec3& n,

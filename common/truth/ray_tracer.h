@@ -3,7 +3,7 @@
 //
 // Self-intersection is handled without an epsilon to tune. Embree sees float rays; its answers are only
 // candidates. A shadow ray is begun behind its surface point and lifted off the surface, both by a few times
-// what float rounding can do to it (floatRay in ray_tracer.cpp), so that whatever touches the point is found;
+// what float rounding can do to it (ShadowPacket), so that whatever touches the point is found;
 // and every candidate is decided again in double from the exact segment and the exact triangle: the triangle
 // the point lies on never counts, and another counts only if its plane has the two ends on different sides,
 // by more than the rounding bound of the double computation itself. With an offset alone, one would see light

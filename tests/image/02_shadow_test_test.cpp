@@ -59,6 +59,7 @@ class AgainstTruth : public testing::TestWithParam<std::string> {};
 
 TEST_P(AgainstTruth, ShadowsAreDarkAndLitSurfacesHaveAcne) {
     ChapterHarness harness(chapter(), testScene(GetParam()));
+    harness.set("fit", "view");
     const FloatImage visibility = harness.scalar("visibility", size);
     const TruthImage truth = harness.truth("visibility", size);
     const Shares s = shares(visibility, truth);
@@ -163,7 +164,7 @@ Decisions decisions(LightType type, const std::string& outside) {
     ChapterHarness harness(chapter(), scene);
     harness.set("outside", outside);
     const FloatImage visibility = harness.scalar("visibility", size);
-    const LightFrustum frustum = fitLightFrustum(scene, scene.lights[0], harness.camera, 1.0);
+    const LightFrustum frustum = fitLightFrustum(scene, scene.lights[0]);
     const RayTracer tracer(scene);
     const PrimaryHits seen = primaryHits(tracer, harness.camera, size);
     Decisions d;

@@ -64,12 +64,12 @@ inline AcneCount countAcne(ChapterHarness& harness, int size, float lit = 0.5f) 
 
 /// A sheet standing on the ground without a gap, the light 45 degrees above on one side, the camera straight
 /// above the strip of ground on the other side: the slides' leak.
-inline Scene wallOnGround(LightType type) {
+inline Scene wallOnGround(LightType type, double metresSeen = 0.5) {
     return SmallScene()
         .quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6})
         .quad({-2.5, 0, 0}, {0, 2, 0}, {5, 0, 0})
         .light(type, {0, 4, 4}, {0, -1, -1}, 0.6)
-        .flatCamera({0, 10, -0.25}, {0, 0, -0.25}, 0.5)
+        .flatCamera({0, 10, -0.5 * metresSeen}, {0, 0, -0.5 * metresSeen}, metresSeen)
         .take();
 }
 

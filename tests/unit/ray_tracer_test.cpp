@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
 #include "common/truth/exact_scene.h"
@@ -227,6 +228,47 @@ TEST(Occluded, NothingLeaksInWhereAWallStandsOnTheGround) {
     for (const auto [scale, offset] : placements)
         EXPECT_EQ(leaksAtContact(scaledAndMoved(scale, offset), 50000, 6), 0u)
             << "scale " << scale << ", offset " << offset;
+}
+
+/// A valley of two walls at 20 degrees: points of one wall ever closer to the fold, behind which the lifted
+/// float ray would begin beyond the other wall; the light is behind that one.
+TEST(Occluded, NothingLeaksInAtTheFoldOfAValley) {
+    for (const auto [scale, offset] : placements) {
+        Scene scene = emptyScene();
+        const Place place = scaledAndMoved(scale, offset);
+        const double rise = std::tan(std::numbers::pi / 9.0);
+        addPart(scene, {{0, 0, 2}, {4, 0, 2}, {4, 0, -2}, {0, 0, -2}, {4, 4 * rise, 2}, {4, 4 * rise, -2}},
+                {0, 1, 2, 0, 2, 3, 0, 4, 5, 0, 5, 3}, place);
+        const RayTracer tracer(scene);
+        std::mt19937_64 random(8);
+        std::uniform_real_distribution<double> uniform(0.0, 1.0);
+        const double ulp = ulpOf(scene);
+        std::size_t leaks = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const glm::dvec3 fold(scene.positions[0]);
+            Hit from;
+            from.triangle = 1;
+            from.geometricNormal = faceNormal(scene, 1);
+            from.position = pointOn(scene, 1, 0.25 + 0.25 * uniform(random), 0.25 + 0.25 * uniform(random));
+            from.position.x = fold.x + ulp * std::exp2(8.0 * uniform(random) - 1.0);
+            from.position.y = fold.y;
+            from.edgeDistance = edgeDistance(scene, 1, from.position);
+            leaks += !tracer.occluded(from, from.position + scale * glm::dvec3(0.1 * uniform(random), 1, 0));
+        }
+        EXPECT_EQ(leaks, 0u) << "scale " << scale << ", offset " << offset;
+    }
+}
+
+/// An origin that a caller rounded a little behind its own surface.
+TEST(Occluded, ItsOwnTriangleNeverBlocks) {
+    Scene scene = emptyScene();
+    addQuad(scene, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+    const RayTracer tracer(scene);
+    Hit from = tracer.nearest({{0.3, 0.5, 0.2}, {0, -1, 0}});
+    from.position.y = -0.01;
+    EXPECT_FALSE(tracer.occluded(from, {0.3, 1.0, 0.2}));
+    from.triangle = ShadowRay::noTriangle;
+    EXPECT_TRUE(tracer.occluded(from, {0.3, 1.0, 0.2}));
 }
 
 TEST(Occluded, BatchAndSingleRaysAgree) {

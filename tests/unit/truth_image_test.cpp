@@ -127,7 +127,7 @@ TEST_F(TruthImages, RaysStandInBehindManyLeaves) {
     Scene scene = floorUnderLight();
     std::vector<glm::dvec3> points;
     std::vector<std::uint32_t> indices;
-    for (std::uint32_t leaf = 0; leaf < 300; ++leaf) {
+    for (std::uint32_t leaf = 0; leaf < 900; ++leaf) {
         const glm::dvec2 u = owenSobol(leaf, 9) - 0.5;
         const auto base = std::uint32_t(points.size());
         for (const glm::dvec3& p :

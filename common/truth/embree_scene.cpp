@@ -1,0 +1,216 @@
+#include "common/truth/embree_scene.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "common/error.h"
+#include "common/truth/segment_test.h"
+#include "common/truth/surface_hit.h"
+
+namespace penumbra {
+
+namespace {
+
+#if RTC_VERSION_MAJOR >= 4
+using EmbreeContext = RTCRayQueryContext;
+void initialize(EmbreeContext& context) {
+    rtcInitRayQueryContext(&context);
+}
+#else
+using EmbreeContext = RTCIntersectContext;
+void initialize(EmbreeContext& context) {
+    rtcInitIntersectContext(&context);
+}
+#endif
+
+/// What the filters need to know about the rays being traced. `embree` comes first: Embree hands back its
+/// address.
+struct Query {
+    EmbreeContext embree;
+    const Scene& scene;
+    const IgnoredTriangles& ignored;
+    const float* heights = nullptr;
+    const ShadowRay* rays = nullptr;  ///< indexed by the id of an Embree ray
+    const ShadowPacket* packet = nullptr;
+    std::uint32_t doubtful = 0;
+
+    Query(const Scene& s, const IgnoredTriangles& i) : scene(s), ignored(i) { initialize(embree); }
+};
+
+void ignorePartFilter(const RTCFilterFunctionNArguments* arguments) {
+    const auto* query = reinterpret_cast<const Query*>(arguments->context);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] != -1) continue;
+        if (query->ignored.contains(RTCHitN_primID(arguments->hit, arguments->N, i))) arguments->valid[i] = 0;
+    }
+}
+
+/// Is candidate `i` there in double? Notes the ray as doubtful if not.
+bool blocks(const RTCFilterFunctionNArguments& arguments, unsigned i, Query& query) {
+    const unsigned n = arguments.N;
+    const std::uint32_t candidate = RTCHitN_primID(arguments.hit, n, i);
+    const unsigned id = RTCRayN_id(arguments.ray, n, i);
+    if (candidate == query.packet->ownTriangle[id] || query.ignored.contains(candidate)) return false;
+    const float u = RTCHitN_u(arguments.hit, n, i), v = RTCHitN_v(arguments.hit, n, i);
+    const glm::vec3 normal(RTCHitN_Ng_x(arguments.hit, n, i), RTCHitN_Ng_y(arguments.hit, n, i),
+                           RTCHitN_Ng_z(arguments.hit, n, i));
+    if (surelyBlocks(*query.packet, id, std::min({u, v, 1.0f - u - v}), RTCRayN_tfar(arguments.ray, n, i),
+                     normal, query.heights[candidate]))
+        return true;
+    const ShadowRay& ray = query.rays[id];
+    const Segment segment{ray.origin, ray.target, ray.towardsInfinity};
+    if (crossTriangle(segment, cornersOf(query.scene, candidate)) == Crossing::inside) return true;
+    query.doubtful |= 1u << id;
+    return false;
+}
+
+void exactShadowFilter(const RTCFilterFunctionNArguments* arguments) {
+    auto* query = reinterpret_cast<Query*>(arguments->context);
+    for (unsigned i = 0; i < arguments->N; ++i)
+        if (arguments->valid[i] == -1 && !blocks(*arguments, i, *query)) arguments->valid[i] = 0;
+}
+
+float smallestHeight(const std::array<glm::dvec3, 3>& t) {
+    const double longest =
+        std::max({glm::length(t[1] - t[0]), glm::length(t[2] - t[1]), glm::length(t[0] - t[2])});
+    return longest > 0.0 ? float(glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / longest) : 0.0f;
+}
+
+std::uint32_t traceOne(RTCSceneTy* scene, const ShadowPacket& packet, Query& query) {
+    RTCRay ray{};
+    ray.org_x = packet.originX[0], ray.org_y = packet.originY[0], ray.org_z = packet.originZ[0];
+    ray.dir_x = packet.directionX[0], ray.dir_y = packet.directionY[0], ray.dir_z = packet.directionZ[0];
+    ray.tfar = packet.far[0];
+    ray.mask = 0xffffffffu;
+    if (ray.tfar < 0.0f) return 0;
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &query.embree;
+    rtcOccluded1(scene, &ray, &arguments);
+#else
+    rtcOccluded1(scene, &query.embree, &ray);
+#endif
+    return ray.tfar < 0.0f ? 1u : 0u;
+}
+
+/// The parts of a packet of rays that never change.
+RTCRay16 blankPacket() {
+    RTCRay16 packet{};
+    for (unsigned i = 0; i < ShadowPacket::size; ++i) packet.mask[i] = 0xffffffffu, packet.id[i] = i;
+    return packet;
+}
+
+std::uint32_t traceSixteen(RTCSceneTy* scene, unsigned count, const ShadowPacket& packet, Query& query) {
+    constexpr unsigned size = ShadowPacket::size;
+    thread_local RTCRay16 rays = blankPacket();
+    alignas(64) int valid[size];
+    for (unsigned i = 0; i < size; ++i) valid[i] = i < count && packet.far[i] >= 0.0f ? -1 : 0;
+    std::copy_n(packet.originX, size, rays.org_x);
+    std::copy_n(packet.originY, size, rays.org_y);
+    std::copy_n(packet.originZ, size, rays.org_z);
+    std::copy_n(packet.directionX, size, rays.dir_x);
+    std::copy_n(packet.directionY, size, rays.dir_y);
+    std::copy_n(packet.directionZ, size, rays.dir_z);
+    std::copy_n(packet.far, size, rays.tfar);
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &query.embree;
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcOccluded16(valid, scene, &rays, &arguments);
+#else
+    query.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded16(valid, scene, &query.embree, &rays);
+#endif
+    std::uint32_t blocked = 0;
+    for (unsigned i = 0; i < size; ++i) blocked |= std::uint32_t(valid[i] == -1 && rays.tfar[i] < 0.0f) << i;
+    return blocked;
+}
+
+}  // namespace
+
+EmbreeScene::EmbreeScene(const Scene& scene) : scene_(scene), device_(rtcNewDevice(nullptr)) {
+    if (!device_)
+        throw Error("Embree does not start (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
+    embree_ = rtcNewScene(device_);
+    rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(embree_, RTC_BUILD_QUALITY_HIGH);
+    copyTriangles();
+    rtcCommitScene(embree_);
+    if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE) {
+        rtcReleaseScene(embree_);
+        rtcReleaseDevice(device_);
+        throw Error("Embree cannot build scene '" + scene.name + "' (" +
+                    std::to_string(scene.triangleCount()) + " triangles): error " + std::to_string(error) +
+                    "; is memory short?");
+    }
+    heights_.reserve(scene.triangleCount());
+    for (std::size_t t = 0; t < scene.triangleCount(); ++t)
+        heights_.push_back(smallestHeight(cornersOf(scene, std::uint32_t(t))));
+}
+
+EmbreeScene::~EmbreeScene() {
+    rtcReleaseScene(embree_);
+    rtcReleaseDevice(device_);
+}
+
+void EmbreeScene::copyTriangles() {
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Embree keeps its own copy: it reads 16 bytes at a time, past the end of a tight array of vec3.
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             sizeof(glm::vec3), scene_.positions.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
+                                            scene_.triangleCount());
+    if (vertices && indices) {
+        std::copy(scene_.positions.begin(), scene_.positions.end(), static_cast<glm::vec3*>(vertices));
+        std::copy(scene_.indices.begin(), scene_.indices.end(), static_cast<std::uint32_t*>(indices));
+        rtcSetGeometryIntersectFilterFunction(geometry, ignorePartFilter);
+        rtcSetGeometryOccludedFilterFunction(geometry, exactShadowFilter);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(embree_, geometry);
+    }
+    rtcReleaseGeometry(geometry);
+}
+
+std::optional<FloatHit> EmbreeScene::nearest(const Ray& ray, const IgnoredTriangles& ignored) const {
+    Query query(scene_, ignored);
+    RTCRayHit found{};
+    const glm::vec3 origin(ray.origin), direction(ray.direction);
+    found.ray.org_x = origin.x, found.ray.org_y = origin.y, found.ray.org_z = origin.z;
+    found.ray.dir_x = direction.x, found.ray.dir_y = direction.y, found.ray.dir_z = direction.z;
+    found.ray.tfar = std::numeric_limits<float>::infinity();
+    found.ray.mask = 0xffffffffu;
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &query.embree;
+    rtcIntersect1(embree_, &found, &arguments);
+#else
+    rtcIntersect1(embree_, &query.embree, &found);
+#endif
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return FloatHit{found.hit.primID, {found.hit.u, found.hit.v}};
+}
+
+PacketAnswer EmbreeScene::occluded(std::span<const ShadowRay> rays, const ShadowPacket& packet,
+                                   const IgnoredTriangles& ignored) const {
+    Query query(scene_, ignored);
+    query.heights = heights_.data();
+    query.rays = rays.data();
+    query.packet = &packet;
+    const std::uint32_t blocked = rays.size() == 1
+                                      ? traceOne(embree_, packet, query)
+                                      : traceSixteen(embree_, unsigned(rays.size()), packet, query);
+    return {blocked, query.doubtful & ~blocked};
+}
+
+}  // namespace penumbra

@@ -1,0 +1,85 @@
+#include "common/truth/shadow_packet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace penumbra {
+
+namespace {
+
+constexpr unsigned lanes = ShadowPacket::size;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// What is rounded to float first; all else is float arithmetic, four or more rays at a time.
+struct Rounded {
+    alignas(64) float normalX[lanes], normalY[lanes],
+        normalZ[lanes];  ///< towards the side that the ray is on
+    alignas(
+        64) float aims[lanes];  ///< 1: the target is a point, and the lifted ray aims at it; 0: a direction
+    alignas(64) float edgeDistance[lanes];
+};
+
+/// Differences and the side of the surface are decided in double: on the wrong side the ray would slip under
+/// whatever stands on the surface.
+void roundOne(const ShadowRay& ray, unsigned i, ShadowPacket& packet, Rounded& rounded) {
+    const glm::dvec3 d = ray.towardsInfinity ? ray.target : ray.target - ray.origin;
+    const double side = glm::dot(d, ray.normal) < 0.0 ? -1.0 : 1.0;
+    packet.directionX[i] = float(d.x), packet.directionY[i] = float(d.y), packet.directionZ[i] = float(d.z);
+    packet.originX[i] = float(ray.origin.x);
+    packet.originY[i] = float(ray.origin.y);
+    packet.originZ[i] = float(ray.origin.z);
+    packet.end[i] = ray.towardsInfinity ? infinity : 1.0f;
+    packet.ownTriangle[i] = ray.triangle;
+    rounded.normalX[i] = float(side * ray.normal.x);
+    rounded.normalY[i] = float(side * ray.normal.y);
+    rounded.normalZ[i] = float(side * ray.normal.z);
+    rounded.aims[i] = ray.towardsInfinity ? 0.0f : 1.0f;
+    rounded.edgeDistance[i] = ray.triangle == ShadowRay::noTriangle ? infinity : float(ray.edgeDistance);
+}
+
+/// By value: a choice between references is a branch.
+float larger(float a, float b) {
+    return a > b ? a : b;
+}
+
+/// Moves the origins; the loop is free of branches and calls, so that the compiler does several rays at once.
+void liftAndPullBack(float reach, ShadowPacket& p, const Rounded& rounded) {
+    for (unsigned i = 0; i < lanes; ++i) {
+        const float x0 = std::abs(p.originX[i]), y0 = std::abs(p.originY[i]), z0 = std::abs(p.originZ[i]);
+        const float largest = larger(larger(reach, x0), larger(y0, z0));
+        const float ulp = 0x1p-23f * largest, lift = 16.0f * ulp;
+        const float liftX = lift * rounded.normalX[i], liftY = lift * rounded.normalY[i],
+                    liftZ = lift * rounded.normalZ[i];
+        const float x = p.directionX[i] - rounded.aims[i] * liftX;
+        const float y = p.directionY[i] - rounded.aims[i] * liftY;
+        const float z = p.directionZ[i] - rounded.aims[i] * liftZ;
+        const float length = std::sqrt(x * x + y * y + z * z);
+        const float back = 12.0f * ulp / length;  // in units of the direction's length
+        p.originX[i] += liftX - back * x;
+        p.originY[i] += liftY - back * y;
+        p.originZ[i] += liftZ - back * z;
+        p.directionX[i] = x, p.directionY[i] = y, p.directionZ[i] = z;
+        p.tolerance[i] = 128.0f * ulp;
+        const float far = p.end[i] + 4.0f * back;
+        p.far[i] = length > 0.0f ? far : -1.0f;
+    }
+}
+
+}  // namespace
+
+void roundToFloat(std::span<const ShadowRay> rays, double reach, ShadowPacket& packet) {
+    Rounded rounded;
+    for (unsigned i = 0; i < lanes; ++i) roundOne(rays[i < rays.size() ? i : 0], i, packet, rounded);
+    liftAndPullBack(float(reach), packet, rounded);
+    packet.nearOwnEdge = 0;
+    for (unsigned i = 0; i < rays.size(); ++i)
+        packet.nearOwnEdge |= std::uint32_t(rounded.edgeDistance[i] <= packet.tolerance[i]) << i;
+}
+
+double ulpOf(const ShadowRay& ray, double reach) {
+    return 0x1p-23 *
+           std::max({reach, std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)});
+}
+
+}  // namespace penumbra

@@ -1,0 +1,25 @@
+// From "this ray meets that triangle" to everything a shader wants to know, in double.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "common/scene/camera.h"
+#include "common/scene/scene.h"
+#include "common/truth/ray_tracer.h"
+
+namespace penumbra {
+
+std::array<glm::dvec3, 3> cornersOf(const Scene& scene, std::uint32_t triangle);
+
+/// Barycentric coordinates (of the second and third corner) where the line meets the plane of the triangle,
+/// forced into the triangle: Embree found the hit with a ray rounded to float, so the exact ray may pass the
+/// edge by a hair. `fallback` if the ray lies in the plane.
+glm::dvec2 exactBarycentrics(const Ray& ray, const std::array<glm::dvec3, 3>& triangle,
+                             const glm::dvec2& fallback);
+
+/// The point of `triangle` at `barycentric`.
+Hit surfaceHit(const Scene& scene, std::uint32_t triangle, const glm::dvec2& barycentric);
+
+}  // namespace penumbra
