@@ -16,7 +16,7 @@ void JitterOptions::declare(Parameters& parameters) {
     parameters.add("tile", tile, 4, 64, "pixels",
                    "side of the tile of patterns; 4: the eye finds the repetition, 64: a slow start");
     parameters.add("order", order, jitterOrderNames(),
-                   "of the patterns in the tile; white: mottled, blue: errors of neighbours compensate");
+                   "of the patterns in the tile; white: mottled; blue: errors of neighbours compensate");
     parameters.add("layout", layout, jitterLayoutNames(),
                    "of the pattern texture: samples in one texel, bits of a coordinate; packed8: steps of "
                    "radius/127");
@@ -49,7 +49,8 @@ void JitterOptions::set(Program& program, const ShadowMap& map, const LightFrust
     if (method == "texture" && held_ != wanted) {
         const auto& names = jitterLayoutNames();
         const auto chosen = JitterLayout(std::find(names.begin(), names.end(), layout) - names.begin());
-        const JitterOrder wantedOrder = order == "blue" ? JitterOrder::blue : JitterOrder::white;
+        const auto& orders = jitterOrderNames();
+        const auto wantedOrder = JitterOrder(std::find(orders.begin(), orders.end(), order) - orders.begin());
         texture_.emplace(JitterTile(tile, samples, wantedOrder, frame.seed), chosen);
         held_ = wanted;
     }
