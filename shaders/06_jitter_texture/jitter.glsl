@@ -22,8 +22,9 @@ const float footprintTexels = 0.5;
 struct Taps {
     vec2 st;       // the point on the map
     vec2 radius;   // of the disk, in s and t
-    float z;       // the depth to compare with at the point, and how it changes over the disk
-    vec2 zSlope;
+    float z;       // the depth to compare with at the point, and how it changes along s and t
+    vec2 slope;
+    vec2 last;     // where s and t of taps end: the centres of the map's first and last texels
     float bias;    // away from the light is positive
     ivec2 column;  // the pixel's pattern; rotation: unused
     vec2 turn;     // rotation: cosine and sine of the pixel's angle
@@ -55,16 +56,16 @@ Taps tapsOf(Receiver receiver, vec2 radius) {
     // mod, not %: CPUs divide floats eight at a time, and integers one by one.
     ivec2 column = ivec2(mod(gl_FragCoord.xy, vec2(textureSize(uJitter, 0).xy)));
 #endif
-    vec2 radiusSt = radius / mapSize;
-    return Taps(receiver.str.xy, radiusSt, receiver.str.z, radiusSt * uFollowPlane * receiver.slope.value, bias, column,
-                turn);
+    return Taps(receiver.str.xy, radius / mapSize, receiver.str.z, uFollowPlane * receiver.slope.value,
+                vec2(0.5, mapSize - 0.5) / mapSize, bias, column, turn);
 }
 
 // [begin:tap]
 // `p` of the unit disk. Compared by the sampler: as fast as a look-up, where fetching a depth and comparing it is half as fast.
 float litTap(Taps taps, vec2 p) {
-    float z = clamp(taps.z + dot(taps.zSlope, p), 0.0, 1.0) - taps.bias;
-    return textureLod(uShadowCompare, vec3(taps.st + taps.radius * p, z), 0.0);
+    vec2 st = clamp(taps.st + taps.radius * p, taps.last.x, taps.last.y);
+    float z = clamp(taps.z + dot(taps.slope, st - taps.st), 0.0, 1.0) - taps.bias;
+    return textureLod(uShadowCompare, vec3(st, z), 0.0);
 }
 // [end:tap]
 

@@ -45,21 +45,27 @@ float chunk(Taps taps, int first, int index) {
     if (index < first || index >= BRANCH_IF) return 0.0;
     return litOfEight(taps, index);
 }
-float fourChunks(Taps taps, int first, int index) {
-    return chunk(taps, first, index) + chunk(taps, first, index + 1) + chunk(taps, first, index + 2) +
-           chunk(taps, first, index + 3);
+void addFourChunks(Taps taps, int first, int index, inout float sum) {
+    sum += chunk(taps, first, index);
+    sum += chunk(taps, first, index + 1);
+    sum += chunk(taps, first, index + 2);
+    sum += chunk(taps, first, index + 3);
 }
 float litOfRest(Taps taps, int first) {
-    float sum = fourChunks(taps, first, 0);
+    float sum = 0.0;
+    addFourChunks(taps, first, 0, sum);
 #if BRANCH_IF > 4
-    sum += fourChunks(taps, first, 4);
+    addFourChunks(taps, first, 4, sum);
 #endif
 #if BRANCH_IF > 8
-    sum += fourChunks(taps, first, 8) + fourChunks(taps, first, 12);
+    addFourChunks(taps, first, 8, sum);
+    addFourChunks(taps, first, 12, sum);
 #endif
 #if BRANCH_IF > 16
-    sum += fourChunks(taps, first, 16) + fourChunks(taps, first, 20) + fourChunks(taps, first, 24) +
-           fourChunks(taps, first, 28);
+    addFourChunks(taps, first, 16, sum);
+    addFourChunks(taps, first, 20, sum);
+    addFourChunks(taps, first, 24, sum);
+    addFourChunks(taps, first, 28, sum);
 #endif
     return sum;
 }

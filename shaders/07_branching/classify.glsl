@@ -24,7 +24,7 @@ bool surelyLit(Taps taps, float z, vec2 slope, float nearest, vec2 plane) {
     float texel = 1.0 / float(textureSize(uShadowMap, 0).x);
     float size = abs(plane.x) + abs(plane.y);
     float rounding = roundOff * (3.0 + 6.0 * size + 2.0 * (abs(slope.x) + abs(slope.y)));
-    float excess = length(slope - taps.radius * plane) + footprintTexels * texel * size + rounding;
+    float excess = length(taps.radius * (slope - plane)) + footprintTexels * texel * size + rounding;
     return z + excess <= nearest + dot(plane, taps.st);
 }
 // [end:surely-lit]
@@ -34,11 +34,11 @@ bool surelyLit(Taps taps, float z, vec2 slope, float nearest, vec2 plane) {
 float classify(Taps taps) {
     vec4 nearest = nearestAround(taps.st);
     float z = uFarther * (taps.z - taps.bias);
-    vec2 slope = uFarther * taps.zSlope;
+    vec2 slope = uFarther * taps.slope;
     if (surelyLit(taps, z, slope, nearest.x, uSlope0) || surelyLit(taps, z, slope, nearest.y, uSlope1) ||
         surelyLit(taps, z, slope, nearest.z, uSlope2))
         return lit;
     float rounding = roundOff * (3.0 + 2.0 * (abs(slope.x) + abs(slope.y)));
-    return z - length(slope) - rounding > -nearest.w ? dark : mixed;
+    return z - length(taps.radius * slope) - rounding > -nearest.w ? dark : mixed;
 }
 // [end:classify]
