@@ -7,8 +7,8 @@
 namespace penumbra {
 
 void JitterOptions::declare(Parameters& parameters) {
-    parameters.add("radius", radius, 0.0f, 64.0f, "texels",
-                   "of the disk; 0: the staircase of one test, 64: soft, and contacts are blurred");
+    parameters.add("radius", radius, 0.0f, 256.0f, "texels",
+                   "of the disk; 0: the staircase of one test, 256: soft, and contacts are blurred");
     parameters.add("samples", samples, 8, 256, "",
                    "tests on the disk, a multiple of 8; 8: noise, 256: smooth, slow");
     parameters.add("method", method, {"texture", "rotation"},

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "common/error.h"
+
 namespace penumbra {
 
 void BranchingOptions::declare(Parameters& parameters) {
@@ -10,6 +15,8 @@ void BranchingOptions::declare(Parameters& parameters) {
                    "who may skip the taps; probe: the lecture's eight, which miss wires; none: nobody");
     parameters.add("branch", branch, {"loop", "if"},
                    "how they are skipped; if: a CPU rasteriser runs both sides and gains nothing");
+    parameters.add("penumbra", penumbra, {"fixed", "contact-hardening"},
+                   "width of the kernel; contact-hardening: of the area light, --radius at most");
 }
 
 void BranchingOptions::load(const Scene& scene) {
@@ -21,6 +28,9 @@ void BranchingOptions::load(const Scene& scene) {
 
 std::vector<std::string> BranchingOptions::defines(int view) const {
     std::vector<std::string> defines = jitter.defines(view);
+    if (hardening()) defines.push_back("CONTACT_HARDENING");
+    if (hardening() && classify != "min-max")
+        throw UsageError("--penumbra contact-hardening: searches by the minima; leave --classify at min-max");
     defines.push_back(classify == "min-max" ? "CLASSIFY_MIN_MAX"
                       : classify == "probe" ? "CLASSIFY_PROBE"
                                             : "CLASSIFY_NONE");
@@ -43,10 +53,20 @@ void BranchingOptions::set(Program& program, const ShadowMap& map, const LightFr
         minMax_->build(map, frustum.range, dominantSlopes(planes_, frustum, light), reach(), frame);
         minMax_->set(program);
     }
+    if (hardening()) setLightSize(program, frustum, light);
     CasterReach casters;
     if (classify != "none") casters = casterReach(frame.scene, *floor_, light, frustum, reach(), map.size());
     program.set("uCasters", casters.st);
     program.set("uNearestCaster", casters.nearest);
+}
+
+void BranchingOptions::setLightSize(Program& program, const LightFrustum& frustum, const Light& light) {
+    if (light.type != LightType::area)
+        throw UsageError("--penumbra contact-hardening: light " + light.name +
+                         " is no area light, and its shadows are hard everywhere");
+    program.set("uLightRadius", float(std::sqrt(light.area / std::numbers::pi)));
+    program.set("uHalfExtent", glm::vec2(frustum.halfExtent));
+    program.set("uNearFar", glm::vec2(frustum.near, frustum.far));
 }
 
 void BranchingOptions::count(const PixelCounts& pixels, WorkCounters& work) const {

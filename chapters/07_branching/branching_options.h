@@ -17,7 +17,7 @@ class BranchingOptions {
     JitterOptions jitter;
     std::string classify = "min-max", branch = "loop", penumbra = "fixed";
 
-    /// Declares the parameters of chapter 06 and --classify, --branch, --penumbra.
+    /// Declares the parameters of chapter 06 and --classify, --branch and --penumbra.
     void declare(Parameters& parameters);
     /// Call it when a chapter loads a scene.
     void load(const Scene& scene);
@@ -31,10 +31,13 @@ class BranchingOptions {
     void count(const PixelCounts& pixels, WorkCounters& work) const;
     std::vector<Program*> programs();
 
+    bool hardening() const { return penumbra == "contact-hardening"; }
     /// Texels that a kernel may read around a point.
     float reach() const;
 
  private:
+    static void setLightSize(Program& program, const LightFrustum& frustum, const Light& light);
+
     std::vector<ReceiverPlane> planes_;
     std::optional<Floor> floor_;
     std::optional<MinMaxMap> minMax_;

@@ -64,12 +64,17 @@ class Branching : public Chapter {
     TruthImage truth(const TruthRequest& request) override {
         if (request.view != "visibility")
             throw UsageError("--compare-truth: chapter 07 has an exact answer for --view visibility");
+        if (branching_.hardening())  // it estimates the area light itself
+            return visibilityTruth(request.scene, request.tracer, request.camera,
+                                   options_.chosenLight(request.scene), request.size, false,
+                                   request.progress);
         return filterTruth(
             request.scene, request.tracer, request.camera, options_.chosenLight(request.scene), request.size,
             {FilterKernel::Shape::disk, branching_.jitter.radius, options_.mapSize}, request.progress);
     }
 
     std::optional<TruthImage> areaLightTruth(const TruthRequest& request) override {
+        if (branching_.hardening()) return std::nullopt;
         return penumbra::areaLightTruth(request, options_);
     }
 

@@ -1,5 +1,8 @@
 #include "02_shadow_test/shading.glsl"
 #include "07_branching/classify.glsl"
+#ifdef CONTACT_HARDENING
+#include "07_branching/contact_hardening.glsl"
+#endif
 
 in vec3 pWorld;
 in vec3 nWorld;
@@ -72,10 +75,23 @@ float litOfRest(Taps taps, int first) {
 #endif
 // [end:loop-or-if]
 
-#if defined(CLASSIFY_PROBE)
+#if defined(CONTACT_HARDENING)
+// [begin:contact-hardening]
+// Lit or dark within the widest kernel is lit or dark within any: no search there.
+float branchedVisibility(Receiver receiver, inout Work work) {
+    Taps widest = tapsOf(receiver, vec2(uRadius));
+    float known = work.looked ? classify(widest) : lit;
+    vec2 kernel = hardenedKernel(receiver, widest, known == mixed);
+    work.searched = known == mixed && kernel.x > 0.0;
+    float sum = litOfChunks(tapsOf(receiver, kernel), 0, work.searched ? uSamples / 8 : 0);
+    return work.searched ? sum / float(uSamples) : known == dark ? 0.0 : 1.0;
+}
+// [end:contact-hardening]
+#elif defined(CLASSIFY_PROBE)
 // [begin:probe]
 // The lecture's scheme: eight taps on the outer ring, and the other 56 only if they disagree.
-float branchedVisibility(Taps taps, inout Work work) {
+float branchedVisibility(Receiver receiver, inout Work work) {
+    Taps taps = tapsOf(receiver, vec2(uRadius));
     int all = uSamples / 8;
     float probe = litOfChunks(taps, 0, work.looked ? 1 : 0);
     work.searched = work.looked && probe > 0.0 && probe < 8.0;
@@ -91,7 +107,8 @@ float branchedVisibility(Taps taps, inout Work work) {
 #elif defined(CLASSIFY_MIN_MAX)
 // [begin:min-max]
 // The cure: the minima and maxima know about every texel that a tap could read.
-float branchedVisibility(Taps taps, inout Work work) {
+float branchedVisibility(Receiver receiver, inout Work work) {
+    Taps taps = tapsOf(receiver, vec2(uRadius));
     float known = work.looked ? classify(taps) : lit;
     work.searched = known == mixed;
 #ifdef BRANCH_IF
@@ -104,7 +121,8 @@ float branchedVisibility(Taps taps, inout Work work) {
 }
 // [end:min-max]
 #else
-float branchedVisibility(Taps taps, inout Work work) {
+float branchedVisibility(Receiver receiver, inout Work work) {
+    Taps taps = tapsOf(receiver, vec2(uRadius));
     work.searched = true;
     return litOfChunks(taps, 0, uSamples / 8) / float(uSamples);
 }
@@ -123,7 +141,7 @@ void main() {
 #ifdef CLASSIFY_NONE
     work.looked = onMap;
 #endif
-    float branched = branchedVisibility(tapsOf(receiver, vec2(uRadius)), work);
+    float branched = branchedVisibility(receiver, work);
     if (onMap) S = branched;
 
     outColor = viewOf(pWorld, nWorld, vUv, S);
