@@ -50,7 +50,6 @@ std::vector<std::uint32_t> packedWords(const JitterTile& tile, JitterLayout layo
 }
 // [end:pack]
 
-// [begin:upload]
 JitterTexture::JitterTexture(const JitterTile& tile, JitterLayout layout) {
     const std::vector<std::uint32_t> words = packedWords(tile, layout);
     const bool snorm = layout == JitterLayout::snorm8 || layout == JitterLayout::lecture;
@@ -68,6 +67,5 @@ JitterTexture::JitterTexture(const JitterTile& tile, JitterLayout layout) {
     for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         glTexParameteri(GL_TEXTURE_3D, wrap, GL_REPEAT);
 }
-// [end:upload]
 
 }  // namespace penumbra

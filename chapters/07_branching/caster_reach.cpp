@@ -39,7 +39,6 @@ Plane planeOf(const Scene& scene, const Part& part) {
 
 }  // namespace
 
-// [begin:floor]
 Floor::Floor(const Scene& scene) : parts_(scene.parts.size(), false) {
     const double flat = 1e-6 * scene.bounds.radius();
     const auto liesIn = [&](const Part& part, const Plane& plane) {
@@ -62,13 +61,11 @@ Floor::Floor(const Scene& scene) : parts_(scene.parts.size(), false) {
     if (largest == 0.0) return;
     for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i] = liesIn(scene.parts[i], {point_, normal_});
 }
-// [end:floor]
 
 bool Floor::contains(std::size_t part, const Light& light) const {
     return parts_[part] && glm::dot(normal_, directionToLight(light, point_)) > 0.0;
 }
 
-// [begin:caster-reach]
 CasterReach casterReach(const Scene& scene, const Floor& floor, const Light& light,
                         const LightFrustum& frustum, float margin, int mapSize) {
     glm::dvec2 lower(2.0), upper(-1.0);
@@ -91,6 +88,5 @@ CasterReach casterReach(const Scene& scene, const Floor& floor, const Light& lig
     // A thousandth of the range: far more than rounding.
     return {glm::vec4(lower - around, upper + around), float(std::max(nearest, -2.0) - 1e-3)};
 }
-// [end:caster-reach]
 
 }  // namespace penumbra

@@ -2,7 +2,6 @@
 
 namespace penumbra {
 
-// [begin:count]
 const PixelCounts& WorkCount::count(const Frame& frame, const std::string& state,
                                     const std::function<void()>& draw) {
     if (target_ && target_->size() == frame.size && state == state_) return counts_;
@@ -25,6 +24,5 @@ const PixelCounts& WorkCount::count(const Frame& frame, const std::string& state
     glViewport(0, 0, frame.size.x, frame.size.y);
     return counts_;
 }
-// [end:count]
 
 }  // namespace penumbra

@@ -145,9 +145,7 @@ void main() {
     if (onMap) S = branched;
 
     outColor = viewOf(pWorld, nWorld, vUv, S);
-    // [begin:red-pixels]
     bool searched = work.searched && work.receives;
     if (uView == 3 && searched) outColor = vec4(uRed * vec3(0.9, 0.05, 0.02), 1.0);
     if (uView == 4) outColor = vec4(work.receives, work.looked && work.receives, searched, 1.0);
-    // [end:red-pixels]
 }
