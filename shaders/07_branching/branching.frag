@@ -100,7 +100,7 @@ float branchedVisibility(Receiver receiver, inout Work work) {
     return probe / 8.0;
 #else
     float rest = litOfChunks(taps, 1, work.searched ? uSamples / 8 : 1);
-    return (probe + rest) / (work.searched ? float(uSamples) : 8.0);
+    return work.looked ? (probe + rest) / (work.searched ? float(uSamples) : 8.0) : lit;
 #endif
 }
 // [end:probe]
