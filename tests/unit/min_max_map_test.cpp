@@ -41,7 +41,7 @@ Counts classifyRandomly(const std::string& sceneName, DepthFormat format, float 
     minMax.build(map, frustum.range, dominantSlopes(largestPlanes(scene), frustum, light), radius + 1.0f / 64,
                  frame);
 
-    Program random("common/fullscreen.vert", "tests/random_receivers.frag", {"JITTER_ROTATION"});
+    Program random("common/fullscreen.vert", "07_branching/random_receivers.frag", {"JITTER_ROTATION"});
     const CompareSampler compare(frustum.range, GL_NEAREST);
     random.setTexture("uShadowMap", GL_TEXTURE_2D, map.texture());
     random.setTexture("uShadowCompare", GL_TEXTURE_2D, map.texture(), compare.id());

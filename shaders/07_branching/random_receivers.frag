@@ -1,4 +1,4 @@
-// A random receiver for each pixel: what classification says of it, and the share of 1024 taps that are lit.
+// For the tests of this chapter. A random receiver for each pixel: what classification says of it, and the share of 1024 taps that are lit.
 #include "07_branching/classify.glsl"
 
 uniform int uRound;
