@@ -5,12 +5,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import house
+import plot as plots
 import png
 import regions
 import tables
 from markers import PageError
 
 PICTURE = re.compile(r"^(.*?)\s+->\s+(\S+\.png)\s*\|\s*(.*)$", re.DOTALL)
+PLOT = re.compile(r"^(\S+)\s+->\s+(\S+\.svg)\s*\|\s*(.*)$", re.DOTALL)
 PICTURES_IN_A_ROW = 3
 PICTURE_TOLERANCE = 2.0  # root mean square, levels of 255
 
@@ -151,6 +153,29 @@ def value(marker, page):
     return tables.cellOf(described, rows, parts[1], parts[2], marker.where)
 
 
+def plot(marker, page):
+    parts = PLOT.match(marker.argument)
+    if not parts:
+        raise PageError(f"{marker.where}: a plot is `TABLE -> FILE.svg | text`, not `{marker.argument}`")
+    name, file, words = parts[1], parts[2], " ".join(parts[3].split())
+    if name not in page.tables:
+        raise PageError(f"{marker.where}: no table above in this page is called {name}; name it in its first line")
+    described, rows = page.tables[name]
+    try:
+        fresh = plots.logLog([column.heading for column in described.columns], rows, words)
+    except plots.PlotError as error:
+        raise PageError(f"{marker.where}: {error}") from None
+    target = page.root / "docs" / file
+    page.pictureFiles.add(f"docs/{file}")
+    shown = target.read_text() if target.is_file() else ""
+    if page.check and shown != fresh:
+        raise PageError(f"{marker.where}: {file} does not show table {name}: run docs/refresh")
+    if not page.check and shown != fresh:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(fresh)
+    return f"\n\n![{words}]({page.link('docs/' + file)})\n\n"
+
+
 def parameters(marker, page):
     if page.check and page.fast:
         return marker.body
@@ -176,4 +201,4 @@ def dependencies(marker, page):
     return "\n\n" + tables.markdown(["Debian package", "why"], rows) + "\n\n"
 
 
-FILLERS = {f.__name__: f for f in (code, diff, picture, pictures, table, value, parameters, chapters, dependencies)}
+FILLERS = {f.__name__: f for f in (code, diff, picture, pictures, table, value, plot, parameters, chapters, dependencies)}

@@ -3,7 +3,7 @@ import hashlib
 import re
 from dataclasses import dataclass
 
-KINDS = ("code", "diff", "picture", "pictures", "table", "value", "parameters", "chapters", "dependencies")
+KINDS = ("code", "diff", "picture", "pictures", "table", "value", "plot", "parameters", "chapters", "dependencies")
 OPENING = re.compile(r"<!-- *(%s)\b *:?(.*?)-->" % "|".join(KINDS), re.DOTALL)
 CLOSING = re.compile(r"<!-- *end\b *([0-9a-f]*) *-->")
 LOOKALIKE = re.compile(r"<!-- *([\w-]+) *:")

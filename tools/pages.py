@@ -70,5 +70,5 @@ def leftOver(root, made):
     problems = [f"{path}: region {name} is shown by no page: show it, or remove its markers"
                 for path, name in regions.allRegions(root) if (path, name) not in shown]
     problems += [f"{path}: no page makes or shows this picture: remove it"
-                 for path in regions.trackedFiles(root, "docs/images/*.png") if path not in pictures]
+                 for path in regions.trackedFiles(root, "docs/images/*.png", "docs/images/*.svg") if path not in pictures]
     return problems

@@ -81,6 +81,8 @@ void ShadowMap::render(Program& program, const Frame& frame, const Light& light,
     const bool cull = draw.cullClosed && !frustum.cutsCasters;
     const DrawCounts drawn = frame.gpu->drawDepth({&visible, cull, draw.frontFacesInstead, light.part});
     held_ = wanted;
+    static std::uint64_t drawings = 0;
+    revision_ = ++drawings;
 
     frame.work["shadow_maps_rendered"] += 1;
     frame.work["triangles_submitted"] += std::int64_t(drawn.triangles);

@@ -38,6 +38,9 @@ class ShadowMap {
     GLuint framebuffer() const { return framebuffer_.id(); }
     int size() const { return size_; }
     DepthFormat format() const { return format_; }
+    /// Another number for every drawing, of whichever map: what is derived from a map is made again when this
+    /// changes.
+    std::uint64_t revision() const { return revision_; }
 
  private:
     /// All that the content depends on. Scenes are immutable once loaded, so the pointer stands for the
@@ -56,6 +59,7 @@ class ShadowMap {
     GlTexture texture_;
     GlFramebuffer framebuffer_;
     std::optional<Key> held_;
+    std::uint64_t revision_ = 0;
 };
 
 }  // namespace penumbra

@@ -82,4 +82,12 @@ CasterDraw casterDraw(BiasMethod method, const ShadowMap& map, const LightFrustu
 }
 // [end:caster-draw]
 
+void setDepthErrors(Program& program, const DepthErrors& errors, const LightFrustum& frustum) {
+    program.set("uSteepest", steepestSlope(frustum));
+    program.set("uQuantum", errors.quantum);
+    program.set("uSnap", errors.snap);
+    program.set("uRounding", errors.rounding);
+    program.set("uRasterError", errors.rasterError);
+}
+
 }  // namespace penumbra

@@ -43,4 +43,7 @@ float steepestSlope(const LightFrustum& frustum);
 CasterDraw casterDraw(BiasMethod method, const ShadowMap& map, const LightFrustum& frustum,
                       const DepthErrors& errors, float scale);
 
+/// Sets the uniforms of bias.glsl and depth_slope.glsl.
+void setDepthErrors(Program& program, const DepthErrors& errors, const LightFrustum& frustum);
+
 }  // namespace penumbra

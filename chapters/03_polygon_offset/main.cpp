@@ -104,11 +104,7 @@ class PolygonOffset : public Chapter {
         biased.setTexture("uSecondLayer", GL_TEXTURE_2D, second.texture());
         biased.set("uBias", bias_);
         biased.set("uConstantBias", constantBias(frustum, second.size()));
-        biased.set("uSteepest", steepestSlope(frustum));
-        biased.set("uQuantum", errors.quantum);
-        biased.set("uSnap", errors.snap);
-        biased.set("uRounding", errors.rounding);
-        biased.set("uRasterError", errors.rasterError);
+        setDepthErrors(biased, errors, frustum);
     }
 
     ShadowOptions options_;

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,9 @@ class Chapter {
     virtual void render(const Frame& frame) = 0;
     /// The exact answer for request.view. Throws UsageError if this view has none.
     virtual TruthImage truth(const TruthRequest& request) = 0;
+    /// For a chapter whose `truth` is not the area light itself: the area light's exact answer for the same
+    /// view, which is reported beside the other. Nothing for another view or another kind of light.
+    virtual std::optional<TruthImage> areaLightTruth(const TruthRequest&) { return std::nullopt; }
     /// Programs to watch for hot reload.
     virtual std::vector<Program*> programs() { return {}; }
 };

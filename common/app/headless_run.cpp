@@ -197,6 +197,7 @@ void runHeadless(ChapterSession& session, Progress& progress, Clock::time_point 
         const DrawnPicture onePerPixel{drawn, options.antialias == 1 ? &picture : nullptr};
         comparison = compareWithTruth(session, options.view, onePerPixel);
         report.error = comparison->report;
+        report.areaLightError = comparison->areaLight;
     }
     progress.finish();
     std::string key;

@@ -85,6 +85,7 @@ std::string reportJson(const Report& report) {
     json["time"] = timeJson(report);
     json["work"] = report.work;
     if (report.error) json["error"] = toJson(*report.error);
+    if (report.areaLightError) json["error_area_light"] = toJson(*report.areaLightError);
     json["notes"] = report.notes;
     // Names of scenes come from file names, which need not be UTF-8: replace what is not.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -99,7 +100,8 @@ std::string reportSummary(const Report& report) {
                         report.frameMs.median, report.frameCpuMs.median, report.frameMs.runs, report.setupMs);
     for (const auto& [pass, statistics] : report.passesMs)
         text += fmt::format("          {:.1f} ms {}\n", statistics.median, pass);
-    if (report.error) text += errorSummary(*report.error);
+    for (const auto& error : {report.error, report.areaLightError})
+        if (error) text += errorSummary(*error);
     return text;
 }
 

@@ -57,6 +57,7 @@ struct Report {
     std::map<std::string, TimeStatistics> passesMs;
     WorkCounters work;  ///< of one timed frame
     std::optional<ErrorReport> error;
+    std::optional<ErrorReport> areaLightError;  ///< of a chapter that estimates something else
     std::vector<std::string> notes;  ///< the loader's
 };
 

@@ -29,15 +29,18 @@ bool hasView(const ChapterInfo& info, const std::string& name) {
                        [&](const ViewInfo& view) { return view.name == name; });
 }
 
+TruthRequest requestFor(ChapterSession& session, const RayTracer& tracer, const std::string& view) {
+    return {session.scene(),    tracer,           session.camera(), session.options().size, view,
+            session.progress(), session.context()};
+}
+
 /// Sets view and truth of `comparison`.
-void findTruth(ChapterSession& session, const std::string& preferred, TruthComparison& comparison) {
-    const RayTracer tracer(session.scene());
+void findTruth(ChapterSession& session, const RayTracer& tracer, const std::string& preferred,
+               TruthComparison& comparison) {
     for (const std::string& name : candidates(session.info(), preferred)) {
         if (!hasView(session.info(), name)) continue;
         try {
-            comparison.truth =
-                session.chapter().truth({session.scene(), tracer, session.camera(), session.options().size,
-                                         name, session.progress(), session.context()});
+            comparison.truth = session.chapter().truth(requestFor(session, tracer, name));
             comparison.report.view = name;
             return;
         } catch (const UsageError&) {  // no exact answer for this view: try the next
@@ -47,29 +50,44 @@ void findTruth(ChapterSession& session, const std::string& preferred, TruthCompa
         fmt::format("--compare-truth: {} has no exact answer for any of its views", session.info().name));
 }
 
-}  // namespace
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
 
-TruthComparison compareWithTruth(ChapterSession& session, const std::string& preferred,
-                                 const DrawnPicture& drawn) {
-    TruthComparison comparison;
-    const auto start = std::chrono::steady_clock::now();
-    findTruth(session, preferred, comparison);
-    ErrorReport& report = comparison.report;
-    report.truthMs =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    comparison.actual =
-        drawn.picture && drawn.view == report.view
-            ? *drawn.picture
-            : session.picture(
-                  {.view = report.view, .camera = session.camera(), .size = session.options().size});
-    const TruthImage& truth = comparison.truth;
+void describe(ErrorReport& report, const FloatImage& actual, const TruthImage& truth) {
     report.quantity = truth.quantity;
     report.truth = truth.method;
     report.against = truth.against;
     report.background = truth.background;
     report.facingAway = truth.facingAway;
     report.straddling = truth.straddling;
-    report.figures = compareImages(comparison.actual, truth.value, truth.mask);
+    report.figures = compareImages(actual, truth.value, truth.mask);
+}
+
+}  // namespace
+
+TruthComparison compareWithTruth(ChapterSession& session, const std::string& preferred,
+                                 const DrawnPicture& drawn) {
+    TruthComparison comparison;
+    const RayTracer tracer(session.scene());
+    const auto start = std::chrono::steady_clock::now();
+    findTruth(session, tracer, preferred, comparison);
+    ErrorReport& report = comparison.report;
+    report.truthMs = millisecondsSince(start);
+    comparison.actual =
+        drawn.picture && drawn.view == report.view
+            ? *drawn.picture
+            : session.picture(
+                  {.view = report.view, .camera = session.camera(), .size = session.options().size});
+    describe(report, comparison.actual, comparison.truth);
+
+    const auto areaStart = std::chrono::steady_clock::now();
+    if (const auto exact = session.chapter().areaLightTruth(requestFor(session, tracer, report.view))) {
+        ErrorReport& areaLight = comparison.areaLight.emplace();
+        areaLight.view = report.view;
+        areaLight.truthMs = millisecondsSince(areaStart);
+        describe(areaLight, comparison.actual, *exact);
+    }
     return comparison;
 }
 

@@ -1,6 +1,8 @@
 // --compare-truth: the picture against its exact answer.
 #pragma once
 
+#include <optional>
+
 #include "common/app/chapter_session.h"
 #include "common/app/report.h"
 
@@ -10,6 +12,7 @@ struct TruthComparison {
     TruthImage truth;
     FloatImage actual;  ///< the same view, one sample a pixel
     ErrorReport report;
+    std::optional<ErrorReport> areaLight;  ///< the same view against Chapter::areaLightTruth
 };
 
 /// A picture that is there already, one sample a pixel, and its view.

@@ -86,6 +86,8 @@ Capabilities findCapabilities(Api api, const Features& features, GetGlProcAddres
     capabilities.timerQuery = features.has(33, {"GL_EXT_disjoint_timer_query"});
     capabilities.polygonOffsetClamp = glPolygonOffsetClamp != nullptr;
     capabilities.logicOp = glLogicOp != nullptr;
+    // By its extension alone: shaders are version 330, and have to name it.
+    capabilities.textureGather = features.has(0, {"GL_ARB_texture_gather"});
     return capabilities;
 }
 

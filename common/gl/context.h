@@ -31,6 +31,7 @@ struct Capabilities {
     bool timerQuery = false;
     bool polygonOffsetClamp = false;  ///< glPolygonOffsetClamp
     bool logicOp = false;             ///< glLogicOp (not in ES)
+    bool textureGather = false;       ///< GL_ARB_texture_gather: four texels in one look-up
 };
 
 /// A current OpenGL context. One per process at a time. Destroying it releases everything.

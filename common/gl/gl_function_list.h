@@ -9,6 +9,7 @@
     X(PFNGLBINDBUFFERPROC, glBindBuffer)                                         \
     X(PFNGLBINDFRAMEBUFFERPROC, glBindFramebuffer)                               \
     X(PFNGLBINDRENDERBUFFERPROC, glBindRenderbuffer)                             \
+    X(PFNGLBINDSAMPLERPROC, glBindSampler)                                       \
     X(PFNGLBINDTEXTUREPROC, glBindTexture)                                       \
     X(PFNGLBINDVERTEXARRAYPROC, glBindVertexArray)                               \
     X(PFNGLBUFFERDATAPROC, glBufferData)                                         \
@@ -24,6 +25,7 @@
     X(PFNGLDELETEFRAMEBUFFERSPROC, glDeleteFramebuffers)                         \
     X(PFNGLDELETEPROGRAMPROC, glDeleteProgram)                                   \
     X(PFNGLDELETERENDERBUFFERSPROC, glDeleteRenderbuffers)                       \
+    X(PFNGLDELETESAMPLERSPROC, glDeleteSamplers)                                 \
     X(PFNGLDELETESHADERPROC, glDeleteShader)                                     \
     X(PFNGLDELETETEXTURESPROC, glDeleteTextures)                                 \
     X(PFNGLDELETEVERTEXARRAYSPROC, glDeleteVertexArrays)                         \
@@ -41,6 +43,7 @@
     X(PFNGLGENBUFFERSPROC, glGenBuffers)                                         \
     X(PFNGLGENFRAMEBUFFERSPROC, glGenFramebuffers)                               \
     X(PFNGLGENRENDERBUFFERSPROC, glGenRenderbuffers)                             \
+    X(PFNGLGENSAMPLERSPROC, glGenSamplers)                                       \
     X(PFNGLGENTEXTURESPROC, glGenTextures)                                       \
     X(PFNGLGENVERTEXARRAYSPROC, glGenVertexArrays)                               \
     X(PFNGLGENERATEMIPMAPPROC, glGenerateMipmap)                                 \
@@ -61,9 +64,11 @@
     X(PFNGLREADBUFFERPROC, glReadBuffer)                                         \
     X(PFNGLREADPIXELSPROC, glReadPixels)                                         \
     X(PFNGLRENDERBUFFERSTORAGEPROC, glRenderbufferStorage)                       \
+    X(PFNGLSAMPLERPARAMETERIPROC, glSamplerParameteri)                           \
     X(PFNGLSCISSORPROC, glScissor)                                               \
     X(PFNGLSHADERSOURCEPROC, glShaderSource)                                     \
     X(PFNGLTEXIMAGE2DPROC, glTexImage2D)                                         \
+    X(PFNGLTEXIMAGE3DPROC, glTexImage3D)                                         \
     X(PFNGLTEXPARAMETERIPROC, glTexParameteri)                                   \
     X(PFNGLUNIFORM1FPROC, glUniform1f)                                           \
     X(PFNGLUNIFORM1IPROC, glUniform1i)                                           \

@@ -38,6 +38,15 @@ void FramebufferTraits::destroy(GLuint id) {
     glDeleteFramebuffers(1, &id);
 }
 
+GLuint SamplerTraits::create() {
+    GLuint id = 0;
+    glGenSamplers(1, &id);
+    return id;
+}
+void SamplerTraits::destroy(GLuint id) {
+    glDeleteSamplers(1, &id);
+}
+
 GLuint RenderbufferTraits::create() {
     GLuint id = 0;
     glGenRenderbuffers(1, &id);

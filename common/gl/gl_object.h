@@ -45,6 +45,10 @@ struct FramebufferTraits {
     static GLuint create();
     static void destroy(GLuint id);
 };
+struct SamplerTraits {
+    static GLuint create();
+    static void destroy(GLuint id);
+};
 struct RenderbufferTraits {
     static GLuint create();
     static void destroy(GLuint id);
@@ -54,6 +58,7 @@ using GlTexture = GlObject<TextureTraits>;
 using GlBuffer = GlObject<BufferTraits>;
 using GlVertexArray = GlObject<VertexArrayTraits>;
 using GlFramebuffer = GlObject<FramebufferTraits>;
+using GlSampler = GlObject<SamplerTraits>;
 using GlRenderbuffer = GlObject<RenderbufferTraits>;
 
 /// Throws Error naming `what` unless the bound GL_FRAMEBUFFER is complete.

@@ -118,8 +118,8 @@ void Program::set(const std::string& name, const glm::mat4& value) {
     state_->uniforms.set(name, value);
 }
 
-void Program::setTexture(const std::string& sampler, GLenum target, GLuint texture) {
-    state_->uniforms.setTexture(sampler, target, texture);
+void Program::setTexture(const std::string& sampler, GLenum target, GLuint texture, GLuint samplerObject) {
+    state_->uniforms.setTexture(sampler, target, texture, samplerObject);
 }
 
 void Program::prepareToDraw() {

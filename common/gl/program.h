@@ -39,8 +39,9 @@ class Program {
     void set(const std::string& name, const glm::ivec2& value);
     void set(const std::string& name, const glm::mat3& value);
     void set(const std::string& name, const glm::mat4& value);
-    /// Binds `texture` to the next free unit of this program and points the sampler at it.
-    void setTexture(const std::string& sampler, GLenum target, GLuint texture);
+    /// Binds `texture` to the next free unit of this program and points the sampler at it. `samplerObject`:
+    /// how it is read, in place of the texture's own parameters; 0: by those.
+    void setTexture(const std::string& sampler, GLenum target, GLuint texture, GLuint samplerObject = 0);
 
     /// Call before drawing: binds the program and its textures; throws Error naming every active uniform
     /// never set.

@@ -104,7 +104,7 @@ void ProgramUniforms::setAgain() {
     for (const auto& [name, binding] : std::map(bindings_)) {
         const auto it = uniforms_.find(name);
         if (it != uniforms_.end() && isSampler(it->second.type))
-            setTexture(name, binding.target, binding.texture);
+            setTexture(name, binding.target, binding.texture, binding.samplerObject);
     }
 }
 
@@ -126,7 +126,8 @@ void ProgramUniforms::set(const std::string& name, const UniformValue& value) {
     std::visit([&](const auto& v) { upload(uniform.location, v); }, value);
 }
 
-void ProgramUniforms::setTexture(const std::string& sampler, GLenum target, GLuint texture) {
+void ProgramUniforms::setTexture(const std::string& sampler, GLenum target, GLuint texture,
+                                 GLuint samplerObject) {
     Uniform& uniform = find(sampler);
     if (!isSampler(uniform.type))
         throw Error(fmt::format("uniform {} of {} is a {}, not a sampler", sampler, names_,
@@ -135,6 +136,7 @@ void ProgramUniforms::setTexture(const std::string& sampler, GLenum target, GLui
     if (isNew) binding->second.unit = GLint(bindings_.size()) - 1;
     binding->second.target = target;
     binding->second.texture = texture;
+    binding->second.samplerObject = samplerObject;
     if (std::exchange(uniform.assigned, true) || uniform.location < 0) return;
     const InUse inUse(program_);
     glUniform1i(uniform.location, binding->second.unit);
@@ -154,6 +156,7 @@ void ProgramUniforms::bindTextures() const {
     for (const auto& [name, binding] : bindings_) {
         glActiveTexture(GLenum(GL_TEXTURE0 + binding.unit));
         glBindTexture(binding.target, binding.texture);
+        glBindSampler(GLuint(binding.unit), binding.samplerObject);
     }
     if (!bindings_.empty()) glActiveTexture(GL_TEXTURE0);
 }

@@ -22,7 +22,7 @@ class ProgramUniforms {
     /// before are set again, as far as they are still declared with the same type.
     void attach(GLuint program, const std::map<std::string, GLenum>& declared);
     void set(const std::string& name, const UniformValue& value);
-    void setTexture(const std::string& sampler, GLenum target, GLuint texture);
+    void setTexture(const std::string& sampler, GLenum target, GLuint texture, GLuint samplerObject);
     /// Throws Error naming every active uniform that was never set.
     void requireComplete();
     void bindTextures() const;
@@ -37,6 +37,7 @@ class ProgramUniforms {
         GLint unit = 0;
         GLenum target = 0;
         GLuint texture = 0;
+        GLuint samplerObject = 0;
     };
     void findActive();
     void setAgain();

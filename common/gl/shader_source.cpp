@@ -27,7 +27,8 @@ const char* const esHeader =
     "precision highp samplerCubeShadow;\n"
     "precision highp sampler2DArrayShadow;\n"
     "precision highp isampler2D;\n"
-    "precision highp usampler2D;\n";
+    "precision highp usampler2D;\n"
+    "precision highp usampler3D;\n";
 
 /// The name the reader knows: from the folder above the root, "shaders/04_pcf/pcf.glsl".
 std::string displayName(const std::string& file) {
@@ -144,6 +145,7 @@ const GlslType glslTypes[] = {
     {"sampler2DArrayShadow", GL_SAMPLER_2D_ARRAY_SHADOW},
     {"isampler2D", GL_INT_SAMPLER_2D},
     {"usampler2D", GL_UNSIGNED_INT_SAMPLER_2D},
+    {"usampler3D", GL_UNSIGNED_INT_SAMPLER_3D},
 };
 
 }  // namespace

@@ -28,18 +28,13 @@ bool smoothlyConnected(const Hit& a, const Hit& b) {
            std::abs(glm::dot(b.geometricNormal, step)) <= allowed;
 }
 
-TruthImage emptyTruth(const glm::ivec2& size, int channels) {
-    TruthImage truth;
-    truth.value = FloatImage(size.x, size.y, channels);
-    truth.mask = FloatImage(size.x, size.y, 1);
-    return truth;
-}
+}  // namespace
 
-/// Runs `answer(hit, x, y)` for every pixel with a defined surface; it returns false where the value is
-/// undefined.
-template <class Answer>
-void forEachSurface(TruthImage& truth, const PrimaryHits& primary, const ProgressCallback& progress,
-                    const Answer& answer) {
+TruthImage surfaceTruth(const PrimaryHits& primary, int channels, const SurfaceAnswer& answer,
+                        const ProgressCallback& progress) {
+    TruthImage truth;
+    truth.value = FloatImage(primary.size.x, primary.size.y, channels);
+    truth.mask = FloatImage(primary.size.x, primary.size.y, 1);
     std::atomic<std::size_t> background = 0, straddling = 0, facingAway = 0;
     const glm::ivec2 size = primary.size;
     const auto row = [&](int y) {
@@ -49,7 +44,7 @@ void forEachSurface(TruthImage& truth, const PrimaryHits& primary, const Progres
                 ++background;
             } else if (primary.straddling[i]) {
                 ++straddling;
-            } else if (!answer(primary.hits[i], x, y)) {
+            } else if (!answer(primary.hits[i], x, y, &truth.value.at(x, y))) {
                 ++facingAway;
             } else {
                 truth.mask.at(x, y) = 1.0f;
@@ -60,7 +55,10 @@ void forEachSurface(TruthImage& truth, const PrimaryHits& primary, const Progres
     truth.background = background;
     truth.straddling = straddling;
     truth.facingAway = facingAway;
+    return truth;
 }
+
+namespace {
 
 std::string methodName(std::size_t rayTraced) {
     return rayTraced == 0 ? "closed form"
@@ -129,13 +127,13 @@ TruthImage visibilityTruth(const Scene& scene, const RayTracer& tracer, const Ca
         const ExactScene exact(scene);
         const LightVisibility visibility(exact, tracer, light, asPoint);
         std::atomic<std::size_t> rayTraced = 0;
-        TruthImage truth = emptyTruth(size, 1);
-        forEachSurface(truth, primary, progress, [&](const Hit& hit, int x, int y) {
+        const auto answerAt = [&](const Hit& hit, int x, int y, float* value) {
             const LightAnswer answer = visibility.at(hit, hashSeed(std::uint32_t(x), std::uint32_t(y)));
-            truth.value.at(x, y) = float(answer.visible);
+            *value = float(answer.visible);
             rayTraced += answer.rayTraced;
             return answer.facing;
-        });
+        };
+        TruthImage truth = surfaceTruth(primary, 1, answerAt, progress);
         truth.quantity = "visibility";
         truth.method = methodName(rayTraced);
         truth.against = isAreaTruth(light, asPoint) ? "area light" : "point light";
@@ -152,8 +150,7 @@ TruthImage irradianceTruth(const Scene& scene, const RayTracer& tracer, const Ca
         std::vector<LightVisibility> visibility;
         for (const Light& light : lights) visibility.emplace_back(exact, tracer, light, asPoint);
         std::atomic<std::size_t> rayTraced = 0;
-        TruthImage truth = emptyTruth(size, 3);
-        forEachSurface(truth, primary, progress, [&](const Hit& hit, int x, int y) {
+        const auto answerAt = [&](const Hit& hit, int x, int y, float* value) {
             glm::dvec3 sum(0.0);
             bool traced = false;
             for (std::size_t k = 0; k < visibility.size(); ++k) {
@@ -162,10 +159,11 @@ TruthImage irradianceTruth(const Scene& scene, const RayTracer& tracer, const Ca
                 sum += answer.irradiance;
                 traced = traced || answer.rayTraced;
             }
-            for (int c = 0; c < 3; ++c) truth.value.at(x, y, c) = float(sum[c]);
+            for (int c = 0; c < 3; ++c) value[c] = float(sum[c]);
             rayTraced += traced;
             return true;
-        });
+        };
+        TruthImage truth = surfaceTruth(primary, 3, answerAt, progress);
         truth.quantity = "irradiance";
         truth.method = methodName(rayTraced);
         truth.against = lights.size() > 1                 ? "all lights"

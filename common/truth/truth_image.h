@@ -42,6 +42,13 @@ PrimaryHits primaryHits(const RayTracer& tracer, const Camera& camera, const glm
 /// Flips both normals if the eye that sent `ray` sees the back of the face.
 void faceTheEye(Hit& hit, const Ray& ray);
 
+/// Writes the exact value(s) at pixel (x, y), which sees `hit`; false: undefined there (facing away).
+using SurfaceAnswer = std::function<bool(const Hit& hit, int x, int y, float* value)>;
+/// Asks `answer` for every pixel that has a surface and straddles no silhouette, on all cores. quantity,
+/// method and against are left to the caller.
+TruthImage surfaceTruth(const PrimaryHits& primary, int channels, const SurfaceAnswer& answer,
+                        const ProgressCallback& progress = {});
+
 /// Exact visibility of `light` (an area light counts as a point at its centre when `asPoint`, else the
 /// visible share of its unoccluded irradiance). Undefined where the surface faces away from the light (by
 /// geometric or shading normal). Computed in double from the scene's triangles: segments for points, cone

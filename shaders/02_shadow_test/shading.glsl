@@ -5,7 +5,11 @@
 
 uniform vec3 uEye;
 uniform vec3 uAmbientRadiance;
+#ifdef VIEW
+const int uView = VIEW;  // a program for each view: what it does not show is not computed
+#else
 uniform int uView;  // 0 color, 1 visibility, 2 shadow-kind
+#endif
 
 // [begin:blinn-phong]
 // In shadow only the ambient term is left.

@@ -39,7 +39,8 @@ struct AcneCount {
     double fraction() const { return receivers ? double(dark) / double(receivers) : 0.0; }
 };
 
-inline AcneCount countAcne(ChapterHarness& harness, int size) {
+/// `lit`: less visibility than that is dark.
+inline AcneCount countAcne(ChapterHarness& harness, int size, float lit = 0.5f) {
     const FloatImage visibility = harness.scalar("visibility", glm::ivec2(size));
     const Scene& scene = harness.scene;
     const glm::dvec3 corner(scene.positions[0]);
@@ -55,7 +56,7 @@ inline AcneCount countAcne(ChapterHarness& harness, int size) {
                 std::cos(85.0 * radiansPerDegree))
                 continue;
             ++count.receivers;
-            count.dark += visibility.at(x, y) < 0.5f;
+            count.dark += visibility.at(x, y) < lit;
         }
     }
     return count;

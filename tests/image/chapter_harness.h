@@ -71,7 +71,8 @@ class ChapterHarness {
                 .skip = skip,
                 .cpuPicture = &unused_,
                 .progress = silent_,
-                .passTimer = passTimer};
+                .passTimer = passTimer,
+                .renderMapsAgain = renderMapsAgain};
     }
 
     /// Draws, and waits until it is drawn.
@@ -90,18 +91,29 @@ class ChapterHarness {
 
     const Capabilities& capabilities() const { return context_.capabilities(); }
 
+    /// What was drawn since frame(), by whatever.
+    FloatImage readBack(int channels) { return target_->read(channels); }
+
     TruthImage truth(const std::string& view, const glm::ivec2& size) {
-        if (!tracer_) tracer_ = std::make_unique<RayTracer>(scene);
-        return chapter_->truth({scene, *tracer_, camera, size, view, silent_, &context_});
+        return chapter_->truth(request(view, size));
+    }
+    std::optional<TruthImage> areaLightTruth(const std::string& view, const glm::ivec2& size) {
+        return chapter_->areaLightTruth(request(view, size));
     }
 
     const Scene& scene;
-    Camera camera;      ///< the scene's first, to be changed at will
-    bool skip = true;   ///< false: --skip-none
-    WorkCounters work;  ///< of the latest picture
+    Camera camera;                 ///< the scene's first, to be changed at will
+    bool skip = true;              ///< false: --skip-none
+    bool renderMapsAgain = false;  ///< as a timed frame does
+    WorkCounters work;             ///< of the latest picture
     PassTimer* passTimer = nullptr;
 
  private:
+    TruthRequest request(const std::string& view, const glm::ivec2& size) {
+        if (!tracer_) tracer_ = std::make_unique<RayTracer>(scene);
+        return {scene, *tracer_, camera, size, view, silent_, &context_};
+    }
+
     const Context& context_;
     GpuScene gpu_;
     std::unique_ptr<Chapter> chapter_;

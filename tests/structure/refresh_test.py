@@ -56,6 +56,15 @@ row {m = derived, none}{m} | 00_a --method {m}
 -->
 <!-- end -->
 
+<!-- table: curve
+column N = label
+column RMSE = error.rmse .3f
+row {n = 4, 16}{n} | 00_a --samples {n}
+-->
+<!-- end -->
+<!-- plot: curve -> images/curve.svg | a curve -->
+<!-- end -->
+
 It is off by <!-- value: errors | none | RMSE --><!-- end --> %.
 
 <!-- parameters: 00_a -->
@@ -113,6 +122,8 @@ class RefreshTest(TreeTest):
         self.assertIn("![a picture](images/a.png)", page)
         self.assertIn("| derived | 12.5 | 1.00 | 7.0 |", page)
         self.assertIn("| none | 25.0 | 2.00 | 7.0 |", page)
+        self.assertIn("![a curve](images/curve.svg)", page)
+        self.assertIn("<title>a curve</title>", self.read("docs/images/curve.svg"))
         self.assertIn("off by <!-- value: errors | none | RMSE -->25.0<!-- end", page)
         self.assertIn("| `--bias` | 0 … 8 | 1 | texels | a \\| b |", page)
         self.assertIn("```\n<!-- code: shown as it is -->\n```", page)
@@ -163,6 +174,16 @@ class RefreshTest(TreeTest):
         self.assertEqual(self.run_(check=True), (0, ""))
         self.state(grey=100, rmse=0.13, ms=7)
         self.expectStale("derived, RMSE: the page says 12.5, the program 13.0", fast=False)
+
+    def testSeesChangedPlot(self):
+        self.refreshed()
+        before = self.read("docs/images/curve.svg")
+        self.run_()
+        self.assertEqual(self.read("docs/images/curve.svg"), before)
+        self.change("docs/images/curve.svg", "polyline", "polygon")
+        self.expectStale("images/curve.svg", "curve")
+        self.refreshed()
+        self.assertEqual(self.read("docs/images/curve.svg"), before)
 
     def testSeesFigureTypedByHand(self):
         self.refreshed()

@@ -208,6 +208,29 @@ TEST_P(ProgramTest, TexturesOfOneProgramGetUnitsOfTheirOwn) {
     EXPECT_EQ(draw(program).x, 22.0f);
 }
 
+TEST_P(ProgramTest, ASamplerObjectCountsForItsOwnTextureOnly) {
+    shaders_.write("t.frag",
+                   "uniform sampler2D uMap;\nout vec4 color;\n"
+                   "void main() { color = texture(uMap, vec2(0.5, 0.5)); }\n");
+    const GlTexture map;  // black and white side by side: the middle is one of them, or grey
+    const std::uint8_t texels[] = {0, 0, 0, 255, 255, 255, 255, 255};
+    glBindTexture(GL_TEXTURE_2D, map.id());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 2, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    const GlSampler linear;
+    glSamplerParameteri(linear.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(linear.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    Program filtered("full.vert", "t.frag"), plain("full.vert", "t.frag");
+    filtered.setTexture("uMap", GL_TEXTURE_2D, map.id(), linear.id());
+    plain.setTexture("uMap", GL_TEXTURE_2D, map.id());
+    EXPECT_NEAR(draw(filtered).x, 0.5f, 0.01f);
+    const float own = draw(plain).x;
+    EXPECT_TRUE(own == 0.0f || own == 1.0f) << "the sampler object is still bound";
+    EXPECT_EQ(filtered.reload(), "");
+    EXPECT_NEAR(draw(filtered).x, 0.5f, 0.01f) << "reload forgot the sampler object";
+}
+
 TEST_P(ProgramTest, SettingLeavesTheProgramInUseAlone) {
     shaders_.write("u.frag", "uniform float uX;\nout vec4 color;\nvoid main() { color = vec4(uX); }\n");
     Program first("full.vert", "u.frag");

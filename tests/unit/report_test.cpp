@@ -93,6 +93,21 @@ TEST(Report, AnErrorComesWithWhatItWasMeasuredAgainstAndWhatWasLeftOut) {
     EXPECT_NE(summary.find("5 background, 3 facing away, 2 on silhouettes"), std::string::npos);
 }
 
+TEST(Report, TheAreaLightsErrorStandsBesideTheOther) {
+    Report report = example();
+    report.error.emplace().against = "filter";
+    report.error->figures.rmse = 0.125;
+    EXPECT_FALSE(Json::parse(reportJson(report)).contains("error_area_light"));
+    report.areaLightError.emplace().against = "area light";
+    report.areaLightError->figures.rmse = 0.5;
+    const Json json = Json::parse(reportJson(report));
+    EXPECT_EQ(json["error"]["against"], "filter");
+    EXPECT_EQ(json["error_area_light"]["against"], "area light");
+    EXPECT_EQ(json["error_area_light"]["rmse"], 0.5);
+    const std::string summary = reportSummary(report);
+    EXPECT_LT(summary.find("rmse 0.125"), summary.find("rmse 0.5"));
+}
+
 TEST(Report, ANameThatIsNotUtf8StillGivesValidJson) {
     Report report = example();
     report.scene = "caf\xe9";

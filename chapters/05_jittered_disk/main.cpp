@@ -1,0 +1,112 @@
+// Chapter 05: fewer taps, stratified on a disk.
+//
+// A square of 15 x 15 texels takes 225 tests, and its shadows have corners. N tests spread over a disk of any
+// radius do: how well depends on the pattern. It is the same for every pixel here, so what it misses shows as
+// bands; chapter 06 turns the bands into noise.
+#include "chapters/01_depth_from_light/depth_view.h"
+#include "chapters/02_shadow_test/shadow_test.h"
+#include "chapters/04_pcf/filter_truth.h"
+#include "chapters/04_pcf/receiver_bias.h"
+#include "chapters/05_jittered_disk/disk_pattern.h"
+#include "chapters/05_jittered_disk/pattern_texture.h"
+#include "common/app/pass_timer.h"
+#include "common/error.h"
+
+using namespace penumbra;
+
+namespace {
+
+class JitteredDisk : public Chapter {
+ public:
+    void declare(Parameters& parameters) override {
+        options_.declare(parameters);
+        declareOutside(parameters, outside_);
+        parameters.add("radius", radius_, 0.0f, 64.0f, "texels",
+                       "of the disk; 0: the staircase of one test, 64: soft, and contacts are blurred");
+        parameters.add("samples", samples_, 4, 1024, "", "tests on the disk; 4: bands, 1024: smooth, slow");
+        parameters.add("pattern", pattern_, squarePatternNames(), "how the tests are spread over a square");
+        parameters.add("disk-map", diskMap_, diskMapNames(),
+                       "how the square becomes a disk; polar-linear: wrong at any number of samples");
+        bias_.declare(parameters);
+    }
+
+    void load(const Scene&, const Context*) override {
+        depth_.emplace("01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag");
+        filtered_.emplace("02_shadow_test/shadowed.vert", "05_jittered_disk/filtered.frag");
+        depthView_.emplace();
+        map_.reset();
+    }
+
+    void render(const Frame& frame) override {
+        // [begin:passes]
+        // Pass 1: the scene from the light (chapter 01).
+        ShadowMap& map = options_.provide(map_, frame.context->capabilities());
+        const Light& light = options_.chosenLight(frame.scene);
+        const LightFrustum frustum = fitLightFrustum(
+            frame.scene, light, frame.camera, double(frame.size.x) / frame.size.y, depthRange(map.format()));
+        map.render(*depth_, frame, light, frustum);
+
+        // Pass 2: the picture, every fragment tested N times.
+        const PassScope scope(frame.passTimer, "shading");
+        clearPicture(frame, options_);
+        if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
+        glEnable(GL_DEPTH_TEST);
+        setCameraAndLight(*filtered_, frame, options_);
+        setShadowMap(*filtered_, map, frustum, light, outside_);
+        bias_.set(*filtered_, map, frustum, frame.scene);
+        setPattern(frame.seed);
+        filtered_->set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
+        drawPicture(*filtered_, frame);
+        // [end:passes]
+        frame.work["tests_per_pixel"] = samples_;
+    }
+
+    TruthImage truth(const TruthRequest& request) override {
+        if (request.view != "visibility")
+            throw UsageError("--compare-truth: chapter 05 has an exact answer for --view visibility");
+        return filterTruth(request.scene, request.tracer, request.camera, options_.chosenLight(request.scene),
+                           request.size, {FilterKernel::Shape::disk, radius_, options_.mapSize},
+                           request.progress);
+    }
+
+    std::optional<TruthImage> areaLightTruth(const TruthRequest& request) override {
+        return penumbra::areaLightTruth(request, options_);
+    }
+
+    std::vector<Program*> programs() override { return {&*depth_, &*filtered_, &depthView_->program()}; }
+
+ private:
+    // [begin:pattern]
+    void setPattern(std::uint32_t seed) {
+        auto points = diskPattern(squarePattern(pattern_), diskMap(diskMap_), samples_, seed);
+        if (!uploaded_ || points != points_) uploaded_.emplace(points_ = std::move(points));
+        filtered_->setTexture("uPattern", GL_TEXTURE_2D, uploaded_->id());
+        filtered_->set("uSamples", samples_);
+        filtered_->set("uRadius", radius_);
+    }
+    // [end:pattern]
+
+    ShadowOptions options_;
+    std::string outside_ = "lit", pattern_ = "jittered", diskMap_ = "concentric";
+    int samples_ = 16;
+    float radius_ = 8.0f;
+    ReceiverBias bias_{.receiverPlane = true};
+    std::vector<glm::dvec2> points_;  // that uploaded_ holds
+    std::optional<Program> depth_, filtered_;
+    std::optional<DepthView> depthView_;
+    std::optional<PatternTexture> uploaded_;
+    std::optional<ShadowMap> map_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const ChapterInfo info{
+        "05_jittered_disk",
+        "fewer taps, stratified on a disk: what a pattern misses shows as bands",
+        {{"color", "Blinn-Phong with the filtered S(x)"},
+         {"visibility", "filtered S(x): 0 dark to 1 lit", true, false},
+         {"shadow-kind", "lit white, attached shadow blue, cast shadow red", false, false, 0.0},
+         {"depth", "the shadow map", true, false}}};
+    return runChapter<JitteredDisk>(info, argc, argv);
+}

@@ -1,0 +1,17 @@
+#include "02_shadow_test/shading.glsl"
+#include "05_jittered_disk/disk.glsl"
+
+in vec3 pWorld;
+in vec3 nWorld;
+in vec2 vUv;
+in vec4 strq;
+
+out vec4 outColor;
+
+void main() {
+    vec4 dx = dFdx(strq), dy = dFdy(strq);
+    Receiver receiver;
+    float S;
+    if (receiverOnMap(strq, dx, dy, receiver, S)) S = diskVisibility(receiver);
+    outColor = viewOf(pWorld, nWorld, vUv, S);
+}

@@ -1,0 +1,26 @@
+#include "02_shadow_test/shading.glsl"
+#include "06_jitter_texture/jitter.glsl"
+
+in vec3 pWorld;
+in vec3 nWorld;
+in vec2 vUv;
+in vec4 strq;
+
+out vec4 outColor;
+
+// [begin:jittered]
+float jitteredVisibility(Receiver receiver) {
+    Taps taps = tapsOf(receiver, vec2(uRadius));
+    float lit = 0.0;
+    for (int chunk = 0; chunk < uSamples / 8; ++chunk) lit += litOfEight(taps, chunk);
+    return lit / float(uSamples);
+}
+// [end:jittered]
+
+void main() {
+    vec4 dx = dFdx(strq), dy = dFdy(strq);
+    Receiver receiver;
+    float S;
+    if (receiverOnMap(strq, dx, dy, receiver, S)) S = jitteredVisibility(receiver);
+    outColor = viewOf(pWorld, nWorld, vUv, S);
+}

@@ -1,0 +1,157 @@
+// What skipping saves: branching_bench [ROUNDS]. Three tables, each of one run:
+//   layouts of the jitter texture against the lecture's look-up;
+//   07 against 06 and against the model (classification + f x full), for shares f of the picture in penumbra;
+//   the minimum-maximum map against the shadow map it is made from.
+// Rounds are interleaved, so that a slow moment hits all alike; times are medians.
+#define main chapter06Main
+#include "chapters/06_jitter_texture/main.cpp"
+#undef main
+#define main chapter07Main
+#include "chapters/07_branching/main.cpp"
+#undef main
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+
+#include "common/app/report.h"
+#include "tests/image/chapter_harness.h"
+#include "tests/image/small_scenes.h"
+
+namespace {
+
+constexpr glm::ivec2 pictureSize(512, 512);
+
+double milliseconds(ChapterHarness& harness) {
+    const auto start = std::chrono::steady_clock::now();
+    harness.render("visibility", pictureSize);
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct Way {
+    std::string name;
+    std::unique_ptr<ChapterHarness> harness;
+    std::vector<double> times{};
+    double median() const { return statisticsOf(times).median; }
+};
+
+/// Draws once to warm up, then `rounds` times, in turns.
+void measure(std::vector<Way>& ways, int rounds) {
+    for (int round = -1; round < rounds; ++round)
+        for (Way& way : ways) {
+            const double time = milliseconds(*way.harness);
+            if (round >= 0) way.times.push_back(time);
+        }
+}
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+template <class Chapter>
+Way way(const std::string& name, const Scene& scene, const Settings& settings) {
+    Way made{name, std::make_unique<ChapterHarness>(std::make_unique<Chapter>(), scene)};
+    for (const auto& [parameter, value] : settings) made.harness->set(parameter, value);
+    return made;
+}
+
+/// Ground that fills the picture, a lamp straight above, and `edges` straight edges between them, which the
+/// camera does not see.
+Scene edges(int count) {
+    SmallScene scene;
+    scene.quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6});
+    // The picture is a metre wide; half way up shadows are twice as large.
+    const double band = 0.5 / (count + 1);
+    for (int i = 0; i < (count + 1) / 2; ++i) {
+        const double from = -0.25 + (2 * i + 1) * band, to = 2 * i + 2 > count ? 2.0 : from + band;
+        scene.quad({-3, 2, to}, {6, 0, 0}, {0, 0, from - to});
+    }
+    return scene.light(LightType::spot, {0, 4, 0}, {0, -1, 0}, 0.5)
+        .flatCamera({0, 1, 0}, {0, 0, 0}, 1.0)
+        .take();
+}
+
+double penumbraShare(ChapterHarness& harness) {
+    const FloatImage visibility = harness.scalar("visibility", pictureSize);
+    const auto between = [](float v) { return v > 0.0f && v < 1.0f; };
+    return double(std::count_if(visibility.values.begin(), visibility.values.end(), between)) /
+           double(visibility.values.size());
+}
+
+void layouts(int rounds) {
+    const Scene scene = edges(4);
+    const Settings rotation{{"method", "rotation"}};
+    std::vector<Way> ways;
+    for (const char* layout : {"lecture", "snorm8", "packed16", "packed8"})
+        ways.push_back(way<JitterTextureChapter>(layout, scene, {{"layout", layout}}));
+    ways.push_back(way<JitterTextureChapter>("rotation", scene, rotation));
+    measure(ways, rounds);
+    fmt::print("06: look-ups of 64 samples, {}x{}\n", pictureSize.x, pictureSize.y);
+    for (const Way& w : ways)
+        fmt::print("  {:10} {:7.2f} ms  {:4.0f} % of the lecture's\n", w.name, w.median(),
+                   100.0 * w.median() / ways[0].median());
+}
+
+void shares(int rounds) {
+    fmt::print("07: 64 samples, f: share of the picture in penumbra\n");
+    fmt::print(
+        "      f radius |     06   none  min-max  min-max/if  probe | 06/07  of the model  supersampled\n");
+    struct Case {
+        int edges;
+        const char* radius;
+    };
+    for (const Case& c : {Case{1, "10"}, {1, "25.6"}, {2, "25.6"}, {4, "25.6"}, {8, "25.6"}, {16, "48"}}) {
+        const Scene scene = edges(c.edges), empty = edges(0);
+        const Settings radius{{"radius", c.radius}};
+        const auto with = [&](Settings more) {
+            more.insert(more.end(), radius.begin(), radius.end());
+            return more;
+        };
+        std::vector<Way> ways;
+        ways.push_back(way<JitterTextureChapter>("06", scene, radius));
+        ways.push_back(way<Branching>("none", scene, with({{"classify", "none"}})));
+        ways.push_back(way<Branching>("min-max", scene, radius));
+        ways.push_back(way<Branching>("if", scene, with({{"branch", "if"}})));
+        ways.push_back(way<Branching>("probe", scene, with({{"classify", "probe"}})));
+        ways.push_back(way<Branching>("classification alone", empty, radius));
+        measure(ways, rounds);
+        const double f = penumbraShare(*ways[0].harness);
+        const double full = ways[0].median(), classification = ways[5].median();
+        const double supersampled =
+            double(ways[2].harness->work["pixels_supersampled"]) / (pictureSize.x * pictureSize.y);
+        fmt::print("{:6.1f}% {:>6} | {:6.2f} {:6.2f} {:8.2f} {:11.2f} {:6.2f} | {:5.2f} {:13.2f} {:12.1f}%\n",
+                   100.0 * f, c.radius, full, ways[1].median(), ways[2].median(), ways[3].median(),
+                   ways[4].median(), full / ways[2].median(), ways[2].median() / (classification + f * full),
+                   100.0 * supersampled);
+    }
+}
+
+void minMax(int rounds) {
+    Way courtyard = way<Branching>("courtyard", testScene("courtyard"), {});
+    PassTimer timer(true);
+    courtyard.harness->passTimer = &timer;
+    courtyard.harness->renderMapsAgain = true;
+    for (int round = -1; round < rounds; ++round) {
+        if (round == 0) timer.clear();
+        courtyard.harness->render("visibility", pictureSize);
+    }
+    const double depth = statisticsOf(timer.times().at("depth")).median;
+    const double built = statisticsOf(timer.times().at("min-max")).median;
+    fmt::print("minimum-maximum map of the courtyard: {:.2f} ms, {:.1f} % of the shadow map's {:.2f} ms\n",
+               built, 100.0 * built / depth, depth);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const int rounds = argc > 1 ? std::atoi(argv[1]) : 15;
+        layouts(rounds);
+        shares(rounds);
+        minMax(rounds);
+        return exitFine;
+    } catch (const Error& error) {
+        fmt::print(stderr, "branching_bench: {}\n", error.what());
+        return error.status();
+    }
+}
