@@ -76,17 +76,21 @@ double FilteredVisibility::at(const Hit& hit, std::uint32_t seed) const {
     return double(lit + litOf(hit, seed, batch, all - batch)) / all;
 }
 
-TruthImage filterTruth(const Scene& scene, const RayTracer& tracer, const Camera& camera, const Light& light,
-                       const glm::ivec2& size, const FilterKernel& kernel, const ProgressCallback& progress) {
+TruthImage filterTruth(const TruthRequest& request, const ShadowOptions& options,
+                       const FilterKernel& kernel) {
+    const Scene& scene = request.scene;
+    const RayTracer& tracer = request.tracer;
+    const Light& light = options.chosenLight(scene);
+    // Depth does not matter here, so any format serves.
+    const LightFrustum& frustum = options.frustum(scene, request.camera, request.size, DepthFormat::fixed24);
     ContentHash key;
-    key.text(algorithm).geometry(scene).camera(camera).light(light);
-    key.number(std::int64_t(size.x)).number(std::int64_t(size.y)).number(std::int64_t(kernel.mapSize));
-    key.number(std::int64_t(kernel.shape)).number(kernel.texels);
+    key.text(algorithm).geometry(scene).camera(request.camera).light(light).text(options.fit);
+    key.number(std::int64_t(request.size.x)).number(std::int64_t(request.size.y));
+    key.number(std::int64_t(kernel.mapSize)).number(std::int64_t(kernel.shape)).number(kernel.texels);
     return cachedTruth(key, [&] {
-        const PrimaryHits primary = primaryHits(tracer, camera, size);
+        const PrimaryHits primary = primaryHits(tracer, request.camera, request.size);
         const ExactScene exact(scene);
         const LightVisibility facing(exact, tracer, light, true);
-        const LightFrustum frustum = fitLightFrustum(scene, light, camera, double(size.x) / size.y);
         const FilteredVisibility visibility(tracer, light, frustum, kernel);
         const auto answerAt = [&](const Hit& hit, int x, int y, float* value) {
             const std::uint32_t seed = hashSeed(std::uint32_t(x), std::uint32_t(y));
@@ -94,7 +98,7 @@ TruthImage filterTruth(const Scene& scene, const RayTracer& tracer, const Camera
             *value = float(visibility.at(hit, seed));
             return true;
         };
-        TruthImage truth = surfaceTruth(primary, 1, answerAt, progress);
+        TruthImage truth = surfaceTruth(primary, 1, answerAt, request.progress);
         truth.quantity = "visibility";
         truth.method = "ray traced";
         truth.against = "filter";

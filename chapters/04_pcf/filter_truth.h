@@ -43,10 +43,9 @@ class FilteredVisibility {
     double lift_;  ///< metres
 };
 
-/// The same for a picture, against "filter". The frustum is the one that the chapters fit to `camera`.
-TruthImage filterTruth(const Scene& scene, const RayTracer& tracer, const Camera& camera, const Light& light,
-                       const glm::ivec2& size, const FilterKernel& kernel,
-                       const ProgressCallback& progress = {});
+/// The same for a picture, against "filter", with the chosen light and its map as a chapter with `options`
+/// fits it.
+TruthImage filterTruth(const TruthRequest& request, const ShadowOptions& options, const FilterKernel& kernel);
 
 /// Chapter::areaLightTruth of a chapter with `options`: what the chosen light, if it is an area light, really
 /// does.

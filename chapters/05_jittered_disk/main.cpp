@@ -19,6 +19,7 @@ namespace {
 class JitteredDisk : public Chapter {
  public:
     void declare(Parameters& parameters) override {
+        options_.fit = "view";  // a kernel is so many texels wide: texels as fine as can be
         options_.declare(parameters);
         declareOutside(parameters, outside_);
         parameters.add("radius", radius_, 0.0f, 64.0f, "texels",
@@ -42,8 +43,7 @@ class JitteredDisk : public Chapter {
         // Pass 1: the scene from the light (chapter 01).
         ShadowMap& map = options_.provide(map_, frame.context->capabilities());
         const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum frustum = fitLightFrustum(
-            frame.scene, light, frame.camera, double(frame.size.x) / frame.size.y, depthRange(map.format()));
+        const LightFrustum& frustum = options_.frustum(frame, map);
         map.render(*depth_, frame, light, frustum);
 
         // Pass 2: the picture, every fragment tested N times.
@@ -64,9 +64,7 @@ class JitteredDisk : public Chapter {
     TruthImage truth(const TruthRequest& request) override {
         if (request.view != "visibility")
             throw UsageError("--compare-truth: chapter 05 has an exact answer for --view visibility");
-        return filterTruth(request.scene, request.tracer, request.camera, options_.chosenLight(request.scene),
-                           request.size, {FilterKernel::Shape::disk, radius_, options_.mapSize},
-                           request.progress);
+        return filterTruth(request, options_, {FilterKernel::Shape::disk, radius_, options_.mapSize});
     }
 
     std::optional<TruthImage> areaLightTruth(const TruthRequest& request) override {

@@ -18,6 +18,7 @@ namespace {
 class JitterTextureChapter : public Chapter {
  public:
     void declare(Parameters& parameters) override {
+        options_.fit = "view";  // a kernel is so many texels wide: texels as fine as can be
         options_.declare(parameters);
         declareOutside(parameters, outside_);
         jitter_.declare(parameters);
@@ -36,14 +37,12 @@ class JitterTextureChapter : public Chapter {
         // Pass 1: the scene from the light (chapter 01).
         ShadowMap& map = options_.provide(map_, frame.context->capabilities());
         const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum frustum = fitLightFrustum(
-            frame.scene, light, frame.camera, double(frame.size.x) / frame.size.y, depthRange(map.format()));
+        const LightFrustum& frustum = options_.frustum(frame, map);
         map.render(*depth_, frame, light, frustum);
 
         // Pass 2: the picture, every fragment tested with the pattern of its pixel.
         const PassScope scope(frame.passTimer, "shading");
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        clearPicture(frame, options_);
         if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
         glEnable(GL_DEPTH_TEST);
         Program& jittered = jittered_->with(jitter_.defines(viewNumber(frame.view)));
@@ -58,9 +57,7 @@ class JitterTextureChapter : public Chapter {
     TruthImage truth(const TruthRequest& request) override {
         if (request.view != "visibility")
             throw UsageError("--compare-truth: chapter 06 has an exact answer for --view visibility");
-        return filterTruth(request.scene, request.tracer, request.camera, options_.chosenLight(request.scene),
-                           request.size, {FilterKernel::Shape::disk, jitter_.radius, options_.mapSize},
-                           request.progress);
+        return filterTruth(request, options_, {FilterKernel::Shape::disk, jitter_.radius, options_.mapSize});
     }
 
     std::optional<TruthImage> areaLightTruth(const TruthRequest& request) override {

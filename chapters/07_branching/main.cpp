@@ -19,6 +19,7 @@ namespace {
 class Branching : public Chapter {
  public:
     void declare(Parameters& parameters) override {
+        options_.fit = "view";  // a kernel is so many texels wide: texels as fine as can be
         options_.declare(parameters);
         declareOutside(parameters, outside_);
         branching_.declare(parameters);
@@ -39,8 +40,7 @@ class Branching : public Chapter {
         // Pass 1: the scene from the light (chapter 01).
         ShadowMap& map = options_.provide(map_, frame.context->capabilities());
         const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum frustum = fitLightFrustum(
-            frame.scene, light, frame.camera, double(frame.size.x) / frame.size.y, depthRange(map.format()));
+        const LightFrustum& frustum = options_.frustum(frame, map);
         map.render(*depth_, frame, light, frustum);
         if (frame.view == "depth") return showDepth(frame, map, frustum);
 
@@ -54,8 +54,7 @@ class Branching : public Chapter {
         branched.set("uRed", 1.0f / exposure(frame.scene, options_.light));
         countWork(frame, map, frustum);
         const PassScope scope(frame.passTimer, "shading");
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        clearPicture(frame, options_);
         glEnable(GL_DEPTH_TEST);
         drawPicture(branched, frame);
         // [end:passes]
@@ -68,9 +67,8 @@ class Branching : public Chapter {
             return visibilityTruth(request.scene, request.tracer, request.camera,
                                    options_.chosenLight(request.scene), request.size, false,
                                    request.progress);
-        return filterTruth(
-            request.scene, request.tracer, request.camera, options_.chosenLight(request.scene), request.size,
-            {FilterKernel::Shape::disk, branching_.jitter.radius, options_.mapSize}, request.progress);
+        return filterTruth(request, options_,
+                           {FilterKernel::Shape::disk, branching_.jitter.radius, options_.mapSize});
     }
 
     std::optional<TruthImage> areaLightTruth(const TruthRequest& request) override {
@@ -91,8 +89,7 @@ class Branching : public Chapter {
     }
 
     void showDepth(const Frame& frame, const ShadowMap& map, const LightFrustum& frustum) {
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        clearPicture(frame, options_);
         depthView_->draw(frame, map, frustum, false);
     }
 

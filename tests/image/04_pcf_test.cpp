@@ -177,8 +177,12 @@ TEST(Chapter04, TheFiltersTruthIsTheClosedFormAtAnEdge) {
         const EdgeScene edge(0.4, 32);
         const RayTracer tracer(edge.scene);
         constexpr double texels = 6.0;
-        const TruthImage truth = filterTruth(edge.scene, tracer, edge.scene.cameras[0], edge.scene.lights[0],
-                                             glm::ivec2(96), {shape, texels, 32});
+        ShadowOptions options;
+        options.fit = "view";
+        const ProgressCallback silent;
+        const TruthImage truth = filterTruth(
+            {edge.scene, tracer, edge.scene.cameras[0], glm::ivec2(96), "visibility", silent, nullptr},
+            options, {shape, texels, 32});
         FloatImage exact(96, 96, 1), penumbra(96, 96, 1);
         for (int y = 0; y < 96; ++y) {
             for (int x = 0; x < 96; ++x) {
