@@ -200,8 +200,8 @@ TEST(Chapter06, ABrokenShaderIsCaught) {
          "ivec2(0)"},
         {"unsigned bytes", "ivec4(word << 24, word << 16, word << 8, word) >> 24)",
          "ivec4(uvec4(word << 24, word << 16, word << 8, word) >> 24))"},
-        {"radius a tenth short", "vec2 radiusSt = radius / mapSize;",
-         "vec2 radiusSt = 0.9 * radius / mapSize;"},
+        {"radius a tenth short", "receiver.str.xy, radius / mapSize,",
+         "receiver.str.xy, 0.9 * radius / mapSize,"},
         {"one word of four", "litOfTwo(taps, words.x) + litOfTwo(taps, words.y) + litOfTwo(taps, words.z)",
          "3.0 * litOfTwo(taps, words.x)"},
     };
