@@ -58,7 +58,7 @@ struct Report {
     WorkCounters work;  ///< of one timed frame
     std::optional<ErrorReport> error;
     std::optional<ErrorReport> areaLightError;  ///< of a chapter that estimates something else
-    std::vector<std::string> notes;  ///< the loader's
+    std::vector<std::string> notes;             ///< the loader's
 };
 
 /// Schema 1: keys may be added, never renamed.
