@@ -79,7 +79,7 @@ void liftAndPullBack(float reach, ShadowPacket& p, const Rounded& rounded) {
         p.originY[i] += liftY - back * y;
         p.originZ[i] += liftZ - back * z;
         p.directionX[i] = x, p.directionY[i] = y, p.directionZ[i] = z;
-        p.tolerance[i] = 128.0f * ulp;
+        p.tolerance[i] = 64.0f * ulp;
         const float far = p.end[i] + 4.0f * back;
         p.far[i] = length > 0.0f ? far : -1.0f;
     }

@@ -25,9 +25,10 @@ struct ShadowPacket {
     alignas(64) float directionX[size], directionY[size], directionZ[size];
     alignas(64) float far[size];  ///< in units of the direction; negative: a ray of no length, leave it out
     alignas(64) float end[size];  ///< of the exact segment, in units of the direction: 1 or infinity
-    /// 128 ulps: double what the exact and the rounded ray can be apart anywhere (16 lifted, 12 back, 8 of
-    /// rounding in both ends) plus what Embree's robust test (Pluecker coordinates, floats relative to the
-    /// origin) can be off by, 20 ulps.
+    /// 64 ulps: what the exact and the rounded ray can be apart anywhere (16 lifted, 12 back, 8 of rounding
+    /// in both ends) plus what Embree's robust test (Pluecker coordinates, floats relative to the origin) can
+    /// be off by, 20 ulps, and 8 in reserve. Larger only costs time: more candidates are tested again in
+    /// double.
     alignas(64) float tolerance[size];
     alignas(64) std::uint32_t ownTriangle[size];
     /// Bit i: origin i is so near to an edge of its triangle that the lifted ray may start beyond the

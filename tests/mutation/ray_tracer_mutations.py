@@ -25,7 +25,7 @@ MUTATIONS = {
     "OwnTriangleBlocks": (
         TRUTH + "embree_scene.cpp", [("candidate == query.packet->ownTriangle[id] || ", "")]),
     "FloatDecidesAlone": (TRUTH + "embree_scene.cpp", [("if (surelyBlocks(", "if (true || surelyBlocks(")]),
-    "FloatIsTooSure": (TRUTH + "shadow_packet.cpp", [("128.0f * ulp", "0.0f * ulp")]),
+    "FloatIsTooSure": (TRUTH + "shadow_packet.cpp", [("64.0f * ulp", "0.0f * ulp")]),
     "IgnoredPartIsSeen": (
         TRUTH + "embree_scene.h", [("return triangle >= begin && triangle < end;", "return triangle != triangle;")]),
     "TouchingIsBlocking": (TRUTH + "segment_test.cpp", [("if (start * end >= 0) return Crossing::none;", "")]),
