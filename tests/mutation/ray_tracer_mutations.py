@@ -32,7 +32,7 @@ MUTATIONS = {
     "DoubtIsForgotten": (TRUTH + "embree_scene.cpp", [("query.doubtful |= 1u << id;", "")]),
     "EdgesAreForgotten": (TRUTH + "shadow_packet.cpp", [("packet.nearOwnEdge |=", "packet.nearOwnEdge &=")]),
     "NoLift": (TRUTH + "shadow_packet.cpp", [("16.0f * ulp", "0.0f * ulp")]),
-    "LiftToTheWrongSide": (TRUTH + "shadow_packet.cpp", [("? -1.0 : 1.0", "? 1.0 : -1.0")]),
+    "LiftToTheWrongSide": (TRUTH + "shadow_packet.cpp", [("? -1.0f : 1.0f", "? 1.0f : -1.0f")]),
 }
 
 
