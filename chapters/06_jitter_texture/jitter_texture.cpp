@@ -18,7 +18,7 @@ std::uint32_t word(std::span<const glm::vec2> column, int index, JitterLayout la
     }
     std::uint32_t bits = 0;
     for (int i = 0; i < 4; ++i) {
-        const float coordinate = column[std::size_t(2 * index + i / 2)][i % 2];
+        const float coordinate = column[2 * index + i / 2][i % 2];
         bits |= (std::uint32_t(quantized(coordinate, 8)) & 0xffu) << (8 * i);
     }
     return bits;

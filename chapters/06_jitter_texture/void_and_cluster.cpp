@@ -21,7 +21,7 @@ class Crowd {
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {
                 const double dx = std::min(x, size - x), dy = std::min(y, size - y);
-                bell_[std::size_t(y * size + x)] = std::exp(-(dx * dx + dy * dy) / (2.0 * sigma * sigma));
+                bell_[y * size + x] = std::exp(-(dx * dx + dy * dy) / (2.0 * sigma * sigma));
             }
         }
     }
@@ -32,8 +32,8 @@ class Crowd {
         for (int y = 0; y < size_; ++y) {
             const int row = ((y - cy + size_) % size_) * size_;
             for (int x = 0; x < size_; ++x) {
-                const double bell = bell_[std::size_t(row + (x - cx + size_) % size_)];
-                crowding_[std::size_t(y * size_ + x)] += taken ? bell : -bell;
+                const double bell = bell_[row + (x - cx + size_) % size_];
+                crowding_[y * size_ + x] += taken ? bell : -bell;
             }
         }
     }

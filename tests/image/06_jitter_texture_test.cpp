@@ -69,11 +69,11 @@ std::vector<double> boxed(const std::vector<double>& errors) {
             double sum = 0.0;
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i) {
-                    const double e = errors[std::size_t((y + j) * size.x + x + i)];
+                    const double e = errors[(y + j) * size.x + x + i];
                     inside = inside && e != 0.0;
                     sum += e;
                 }
-            if (inside) result[std::size_t(y * size.x + x)] = sum / 9.0;
+            if (inside) result[y * size.x + x] = sum / 9.0;
         }
     return result;
 }

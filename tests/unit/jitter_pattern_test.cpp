@@ -95,11 +95,11 @@ TEST(JitterTexture, WordsHoldThePattern) {
         for (int x = 0; x < 4; ++x) {
             for (int i = 0; i < 64; ++i) {
                 const glm::vec2 p = tile.column(x, y)[std::size_t(i)];
-                const std::uint32_t w8 = words8[std::size_t((i / 8 * 16 + y * 4 + x) * 4 + i % 8 / 2)];
+                const std::uint32_t w8 = words8[(i / 8 * 16 + y * 4 + x) * 4 + i % 8 / 2];
                 const auto byte = [&](int b) { return float(std::int8_t(w8 >> (8 * b))) / 127.0f; };
                 EXPECT_NEAR(byte(i % 2 * 2), p.x, 0.5 / 127 + 1e-6);
                 EXPECT_NEAR(byte(i % 2 * 2 + 1), p.y, 0.5 / 127 + 1e-6);
-                const std::uint32_t w16 = words16[std::size_t((i / 4 * 16 + y * 4 + x) * 4 + i % 4)];
+                const std::uint32_t w16 = words16[(i / 4 * 16 + y * 4 + x) * 4 + i % 4];
                 EXPECT_NEAR(float(std::int16_t(w16)) / 32767.0f, p.x, 0.5 / 32767 + 1e-6);
                 EXPECT_NEAR(float(std::int16_t(w16 >> 16)) / 32767.0f, p.y, 0.5 / 32767 + 1e-6);
             }
@@ -115,8 +115,7 @@ TEST(VoidAndCluster, RanksEachTexelOnceAndKeepsNeighboursApart) {
         double difference = 0.0;
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x)
-                difference += std::abs(ranks[std::size_t(y * size + x)] -
-                                       ranks[std::size_t(y * size + (x + 1) % size)]);
+                difference += std::abs(ranks[y * size + x] - ranks[y * size + (x + 1) % size]);
         // Independent ranks differ by a third of the number of ranks on average; measured 0.364 and 0.387.
         EXPECT_GT(difference / std::pow(size, 4), 0.35);
     }
