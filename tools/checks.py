@@ -82,10 +82,10 @@ def sanitizers():
         "UBSAN_OPTIONS": "print_stacktrace=1",
         "PENUMBRA_TEST_OUTPUT": str(build.folder("sanitize") / "images"),
     }
-    chapters = [path.parent.name for path in (ROOT / "chapters").glob("[0-9][0-9]_*/main.cpp")]  # unit_chapter_cli runs them
-    # The assets are those of the release build: instrumented code rounds the last bit of a sine differently.
-    flags = ["-L", "unit", "-E", "ByteForByte"]
-    return ctest("sanitize", flags, [*unit, *chapters, "make_assets"], environment)
+    # The assets are those of the release build: instrumented code rounds the last bit of a sine differently. And
+    # unit_chapter_cli empties the environment of the chapters it starts, so that leaks of drivers would count as ours.
+    flags = ["-L", "unit", "-E", "ByteForByte|chapter_cli"]
+    return ctest("sanitize", flags, [*unit, "make_assets"], environment)
 
 
 def withoutOsmesa():
