@@ -1,8 +1,9 @@
 // Convex polygons of bounded size on the stack, and the one clipper everything exact is built from.
 //
-// Sutherland & Hodgman, "Reentrant Polygon Clipping", CACM 1974. A cut vertex is always computed from the
-// kept side towards the dropped side, so two polygons that share an edge, in whichever direction, are cut at
-// the same bits: no cracks.
+// Sutherland & Hodgman, "Reentrant Polygon Clipping", CACM 1974. A cut vertex is always computed from the end
+// of the edge that is nearer to it, so two polygons that share an edge, in whichever direction, are cut at
+// the same bits: no cracks. And near the origin, where the exact answers have their receiver point, the cut
+// vertex of an edge that leads far away keeps its digits.
 #pragma once
 
 #include <algorithm>
@@ -57,7 +58,8 @@ using Polygon3 = ConvexPolygon<glm::dvec3>;
 /// Where the segment from `in` (distance sIn > 0) to `out` (distance sOut < 0) meets distance 0.
 template <class Point>
 Point crossing(const Point& in, double sIn, const Point& out, double sOut) {
-    return in + (out - in) * (sIn / (sIn - sOut));
+    const double whole = sIn - sOut;
+    return sIn < -sOut ? in + (out - in) * (sIn / whole) : out + (in - out) * (-sOut / whole);
 }
 
 /// Cuts `polygon` where `distance(vertex)` changes sign (it must be linear in the vertex) into the parts >= 0

@@ -6,8 +6,6 @@
 #include <numeric>
 #include <vector>
 
-#include "common/truth/lambert_polygon.h"
-
 namespace penumbra {
 namespace {
 
@@ -19,12 +17,13 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// light's plane.
 struct Cone {
     std::array<glm::dvec3, 3> inward;
-    glm::dvec3 beyond;  ///< the triangle's normal on the side away from x
+    glm::dvec3 beyond;  ///< the triangle's normal on the side away from x ...
+    double offset;      ///< ... and its distance from x, both times twice the triangle's area
     Triangle triangle;
 
     /// >= 0 on the inner side of plane `i`; the planes of the cone are 0, 1, 2, the triangle's own is 3.
     double side(int i, const glm::dvec3& p) const {
-        return i < 3 ? glm::dot(inward[std::size_t(i)], p) : glm::dot(beyond, p - triangle[0]);
+        return i < 3 ? glm::dot(inward[std::size_t(i)], p) : glm::dot(beyond, p) - offset;
     }
 };
 
@@ -44,17 +43,6 @@ struct Workspace {
 Workspace& workspace() {
     thread_local Workspace w;
     return w;
-}
-
-double sumOfMagnitudes(const glm::dvec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
-/// a x b up to a factor of 2, with two properties the plain product lacks: exactly negated when a and b swap,
-/// so neighbouring triangles share their cone planes to the bit; and accurate for short far edges, since b -
-/// a is formed first.
-glm::dvec3 edgePlane(const glm::dvec3& a, const glm::dvec3& b) {
-    return glm::cross(a + b, b - a);
 }
 
 /// No corner of `t` (relative to x) reaches inside one of the pyramid's planes, or in front of the light.
@@ -87,19 +75,34 @@ bool covers(const Cone& cone, const Polygon3& polygon) {
     return true;
 }
 
+struct Plane {
+    glm::dvec3 normal;  ///< times twice the area of its triangle
+    double offset;      ///< of x: dot(normal, p) of the plane's points
+};
+
+/// The plane of `t`, computed in `Real`. Parts of one surface must have one plane, to well below the distance
+/// of a wide light: so near to x, 53 bits of coordinates a metre away are not enough.
+template <class Real>
+Plane planeOf(const Triangle& t) {
+    using Vector = glm::vec<3, Real>;
+    const Vector a(t[0]);
+    const Vector normal = glm::cross(Vector(t[1]) - a, Vector(t[2]) - a);
+    return {glm::dvec3(normal), double(glm::dot(a, normal))};
+}
+
 /// Appends the cone over triangle `t` (relative to x), unless it can hide nothing of the light: beside the
 /// pyramid; degenerate; behind the light or part of its surface; or with x in its plane as far as doubles can
 /// tell (no surface shadows itself).
 void appendCone(const LightPyramid& pyramid, const Triangle& t, std::vector<Cone>& cones) {
     if (misses(pyramid, t)) return;
-    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-    const double volume = glm::dot(t[0], normal);
+    const auto [normal, offset] = pyramid.wide ? planeOf<long double>(t) : planeOf<double>(t);
     const double tolerance = (pyramid.rounding + 8.0 * epsilon * sumOfMagnitudes(t[0])) * glm::length(normal);
-    if (std::abs(volume) <= tolerance) return;
-    const double sign = volume > 0.0 ? 1.0 : -1.0;
+    if (std::abs(offset) <= tolerance) return;
+    const double sign = offset > 0.0 ? 1.0 : -1.0;
     const Cone cone = {
         {sign * edgePlane(t[0], t[1]), sign * edgePlane(t[1], t[2]), sign * edgePlane(t[2], t[0])},
         sign * normal,
+        sign * offset,
         t};
     if (!isOutside(cone, pyramid.light, 3, tolerance)) cones.push_back(cone);
 }
@@ -126,7 +129,7 @@ double subtract(const LightPyramid& pyramid, Piece piece, std::size_t last, Work
             const auto side = [&](const glm::dvec3& p) { return cone.side(plane, p); };
             split(piece.polygon, side, inside, outside);
             if (i + 1 == last)
-                sum += lambertFormFactor(pyramid.normal, outside);
+                sum += formFactorOf(pyramid, outside);
             else if (!outside.empty())
                 work.pieces.push_back({outside, i + 1});
             if (inside.empty()) break;
@@ -134,7 +137,7 @@ double subtract(const LightPyramid& pyramid, Piece piece, std::size_t last, Work
         }
         return sum;
     }
-    return lambertFormFactor(pyramid.normal, piece.polygon);
+    return formFactorOf(pyramid, piece.polygon);
 }
 
 /// Normal of the plane through x that halves `polygon` across its longest diagonal from the first corner.
@@ -194,47 +197,6 @@ double visiblePart(const LightPyramid& pyramid, const Polygon3& part, std::size_
 
 }  // namespace
 
-LightPyramid lightPyramid(const glm::dvec3& x, const glm::dvec3& n, std::span<const glm::dvec3> polygon) {
-    LightPyramid pyramid;
-    pyramid.x = x;
-    pyramid.normal = n;
-    const glm::dvec3 areaVector = areaNormal(polygon);
-    const double length = glm::length(areaVector);
-    if (!(length > 0.0)) return pyramid;
-    Polygon3 light;
-    for (const glm::dvec3& p : polygon) light.push(p - x);
-    pyramid.lightNormal = areaVector / length;
-    pyramid.height = -glm::dot(pyramid.lightNormal, light[0]);
-    // Rounding of the input: x and the scene's points carry half a unit in the last place each, a computed x
-    // a little more.
-    pyramid.rounding = 8.0 * epsilon * (sumOfMagnitudes(x) + sumOfMagnitudes(light[0]));
-    if (pyramid.height <= pyramid.rounding) return pyramid;  // behind the light, or in its plane
-    pyramid.light = clip(light, [&](const glm::dvec3& p) { return glm::dot(n, p); });
-    for (int i = 0; i < pyramid.light.count; ++i)
-        pyramid.inward.push(-edgePlane(pyramid.light[i], pyramid.light[pyramid.light.next(i)]));
-    pyramid.inward.push(n);
-    return pyramid;
-}
-
-bool outside(const LightPyramid& pyramid, const Aabb& box) {
-    const glm::dvec3 centre = box.centre() - pyramid.x;
-    const glm::dvec3 half = 0.5 * box.size();
-    // Outward, so that rounding never culls what the exact test would keep.
-    const double slack = 1.0 + 16.0 * epsilon;
-    const double slackLength = 16.0 * epsilon * (sumOfMagnitudes(centre) + sumOfMagnitudes(pyramid.x));
-    const auto nearest = [&](const glm::dvec3& normal) {
-        const glm::dvec3 size = glm::abs(normal);
-        return glm::dot(normal, centre) + slack * glm::dot(size, half) + slackLength * sumOfMagnitudes(size);
-    };
-    for (const glm::dvec3& inward : pyramid.inward.span())
-        if (nearest(inward) < 0.0) return true;
-    return nearest(pyramid.lightNormal) + pyramid.height < 0.0;
-}
-
-double unoccludedFormFactor(const LightPyramid& pyramid) {
-    return lambertFormFactor(pyramid.normal, pyramid.light);
-}
-
 double visibleFormFactor(const LightPyramid& pyramid, std::span<const Triangle> occluders) {
     Workspace& work = workspace();
     work.cones.clear();
@@ -242,7 +204,7 @@ double visibleFormFactor(const LightPyramid& pyramid, std::span<const Triangle> 
         appendCone(pyramid, {t[0] - pyramid.x, t[1] - pyramid.x, t[2] - pyramid.x}, work.cones);
         if (!work.cones.empty() && covers(work.cones.back(), pyramid.light)) return 0.0;
     }
-    const double whole = unoccludedFormFactor(pyramid);
+    const double whole = formFactorOf(pyramid, pyramid.light);
     if (work.cones.empty()) return whole;
     work.listed.resize(work.cones.size());
     std::iota(work.listed.begin(), work.listed.end(), 0u);

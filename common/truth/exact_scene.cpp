@@ -15,10 +15,6 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::size_t noLimit = std::numeric_limits<std::size_t>::max();
 
-double sumOfMagnitudes(const glm::dvec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
 /// The open segment between two points, prepared for boxes and triangles.
 class ShadowSegment {
  public:

@@ -19,7 +19,8 @@ double formFactor(const glm::dvec3& x, const glm::dvec3& n, std::span<const glm:
 /// The same with opaque triangles in between, by subtracting each triangle's cone from the light in direction
 /// space: exact for any number and overlap of occluders; an umbra behind a single triangle is exactly 0.
 /// Triangles that x lies in the plane of, that are behind the light or in its plane, or have no area, change
-/// nothing, to the bit. Never negative, never above formFactor. Allocates nothing once warm; threads may call
+/// nothing, to the bit. Never negative, never above formFactor; a surface cut into more triangles gives the
+/// same to 1e-14, however near `x` is to the light. Allocates nothing once warm; threads may call
 /// it side by side.
 double visibleFormFactor(const glm::dvec3& x, const glm::dvec3& n, std::span<const glm::dvec3> polygon,
                          std::span<const Triangle> occluders);

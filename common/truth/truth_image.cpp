@@ -14,7 +14,7 @@ namespace penumbra {
 namespace {
 
 /// Change whenever an answer changes, so that answers computed by older code are not found again.
-constexpr std::string_view algorithm = "2026-11 exact segments and cones, 3";
+constexpr std::string_view algorithm = "2026-11 exact segments and cones, 4";
 
 /// Do two hits lie on one smooth piece of surface? Same part, same side, normals within 25 degrees (a curved
 /// surface of 16 facets passes, a crease does not), and neither much off the other's tangent plane (a step in

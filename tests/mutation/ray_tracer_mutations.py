@@ -18,7 +18,8 @@ TRUTH = "common/truth/"
 TESTS = {"ray_tracer": "tests/unit/ray_tracer_test.cpp"}
 SOURCES = ["common/math/polygon.cpp"] + [
     f"{TRUTH}{name}.cpp" for name in ("ray_tracer", "embree_scene", "shadow_packet", "surface_hit", "segment_test",
-                                      "lambert_polygon", "cone_subtraction", "triangle_bvh", "exact_scene")]
+                                      "lambert_polygon", "light_pyramid", "cone_subtraction", "triangle_bvh",
+                                      "exact_scene")]
 
 # name: (file, [(old, new), ...])
 MUTATIONS = {

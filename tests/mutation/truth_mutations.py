@@ -15,14 +15,14 @@ COMPILER = os.environ.get("CXX", "c++")
 FLAGS = ["-std=c++20", "-O1", "-ffp-contract=off", f'-DPENUMBRA_SOURCE_DIR="{ROOT}"']
 SOURCES = ["common/math/polygon.cpp"] + [
     f"common/truth/{name}.cpp"
-    for name in ("lambert_polygon", "cone_subtraction", "polygon_light", "shadow_polygon", "edge_coverage",
-                 "triangle_bvh", "exact_scene")]
+    for name in ("lambert_polygon", "light_pyramid", "cone_subtraction", "polygon_light", "shadow_polygon",
+                 "edge_coverage", "triangle_bvh", "exact_scene")]
 LIBRARIES = ["-lgtest", "-lgtest_main", "-ltbb", "-lfmt", "-pthread"]
 
 # name: (file, unit program that must fail, [(old, new), ...])
 MUTATIONS = {
     "NoHorizonClip": (
-        "common/truth/cone_subtraction.cpp", "polygon_light",
+        "common/truth/light_pyramid.cpp", "polygon_light",
         [("clip(light, [&](const glm::dvec3& p) { return glm::dot(n, p); })", "light")]),
     "OccluderNotCutAtTheLight": (
         "common/truth/cone_subtraction.cpp", "cone_subtraction", [("plane < 4", "plane < 3")]),
@@ -33,11 +33,23 @@ MUTATIONS = {
          ("plane < 4", "plane < 3")]),
     "SurfacesShadowThemselves": (
         "common/truth/cone_subtraction.cpp", "cone_subtraction",
-        [("if (std::abs(volume) <= tolerance) return;", "")]),
+        [("if (std::abs(offset) <= tolerance) return;", "")]),
     "OneWindingOnly": (
-        "common/truth/cone_subtraction.cpp", "cone_subtraction", [("volume > 0.0 ? 1.0 : -1.0", "1.0")]),
+        "common/truth/cone_subtraction.cpp", "cone_subtraction", [("offset > 0.0 ? 1.0 : -1.0", "1.0")]),
     "RoundingAddsLight": (
         "common/truth/cone_subtraction.cpp", "cone_subtraction", [("std::min(sum, whole)", "sum")]),
+    "NoQuadrants": (
+        "common/truth/light_pyramid.cpp", "cone_subtraction", [("pyramid.wide = isWide(pyramid, light);", "")]),
+    "AQuadrantIsMissing": (
+        "common/truth/light_pyramid.h", "polygon_light",
+        [("Quadrant::second, Quadrant::third, Quadrant::fourth}", "Quadrant::second, Quadrant::third}")]),
+    "CutFromTheFarEnd": ("common/math/polygon.h", "cone_subtraction", [("sIn < -sOut ?", "sIn > -sOut ?")]),
+    "CutFromTheKeptSide": ("common/math/polygon.h", "cone_subtraction", [("sIn < -sOut ?", "true ?")]),
+    "CornersAtTheirOwnDistances": (
+        "common/truth/light_pyramid.cpp", "cone_subtraction",
+        [("if (pyramid.wide) return lambertFormFactor", "if (false) return lambertFormFactor")]),
+    "PlanesInDouble": (
+        "common/truth/cone_subtraction.cpp", "cone_subtraction", [("planeOf<long double>", "planeOf<double>")]),
     "FullPiecesAreNotHalved": (
         "common/truth/cone_subtraction.cpp", "cone_subtraction",
         [("Polygon3::capacity / 2) halve(", "1000) halve(")]),
@@ -45,7 +57,7 @@ MUTATIONS = {
         "common/truth/cone_subtraction.cpp", "cone_subtraction",
         [("work.listed.resize(begin);", "work.listed.resize(begin), last = std::min(last, first + 40);")]),
     "BothSidesEmit": (
-        "common/truth/cone_subtraction.cpp", "polygon_light", 
+        "common/truth/light_pyramid.cpp", "polygon_light",
         [("if (pyramid.height <= pyramid.rounding) return", "if (false) return")]),
     "PlainCrossProduct": (
         "common/truth/lambert_polygon.cpp", "polygon_light", [("0.5 * glm::cross(a + b, edge)", "glm::cross(a, b)")]),
@@ -110,7 +122,8 @@ class TruthMutations(unittest.TestCase):
         test = f"tests/unit/{program}_test.cpp"
         objects = []
         for source in [test, *SOURCES]:
-            changed = broken and ((broken / source).exists() or (source == test and any(broken.rglob("*.h"))))
+            # A broken header may be included by any of them.
+            changed = broken and ((broken / source).exists() or any(broken.rglob("*.h")))
             if changed:
                 object_ = broken / (pathlib.Path(source).name + ".o")
                 compile_(broken / source if (broken / source).exists() else ROOT / source, object_, broken)
