@@ -7,7 +7,6 @@ in vec3 nWorld;
 in vec2 vUv;
 in vec4 strq;
 
-uniform mat4 uShadowTextureFromWorld;
 uniform sampler2D uSecondLayer;  // midpoint
 uniform float uBias;             // multiple of what the method asks for
 uniform float uConstantBias;
@@ -29,20 +28,21 @@ float shadowTest(vec4 pShadow, vec4 dx, vec4 dy) {
     if (!projectOnMap(pShadow, str, decided)) return decided;
     float mapSize = float(textureSize(uShadowMap, 0).x), perQ = 1.0 / pShadow.w;
     DepthSlope slope = depthSlope(pShadow, str, dx, dy, perQ);
-    float Q = quantumBias(str.z), C = roundingBias(slope, perQ, str.z);
+    vec3 rounding = roundingAt(pShadow, pWorld);
+    float Q = quantumBias(str.z), C = roundingBias(slope, perQ, str.z, rounding);
     float bias = 0.0;  // none, polygon-offset, front-face: what there is was done in pass 1
 
 #if METHOD == CONSTANT
     bias = uConstantBias;
 #elif METHOD == SLOPE
-    bias = slopeBias(slope, perQ, mapSize) + Q + C;
+    bias = slopeBias(slope, perQ, mapSize, rounding) + Q + C;
 #elif METHOD == NORMAL_OFFSET
     // The same S, spent along the normal: on any slope it is at most half a texel's diagonal, so nothing detaches.
     vec3 n = geometricNormal(pWorld, directionToLight(pWorld));
     vec4 step = uShadowTextureFromWorld * vec4(n, 0.0);
     vec3 gain = (step.xyz - str * step.w) * perQ;  // for a metre along n; what counts is the height above the plane
     float perMetre = abs(gain.z - dot(slope.value, gain.xy));
-    vec3 offset = uBias * slopeBias(slope, perQ, mapSize) / perMetre * n;
+    vec3 offset = uBias * slopeBias(slope, perQ, mapSize, rounding) / perMetre * n;
     if (!projectOnMap(uShadowTextureFromWorld * vec4(pWorld + offset, 1.0), str, decided)) return decided;
     bias = Q + C;
 #elif METHOD == RECEIVER_PLANE
@@ -50,8 +50,7 @@ float shadowTest(vec4 pShadow, vec4 dx, vec4 dy) {
     vec2 toCentre = (vec2(texelAt(str.xy)) + 0.5) / mapSize - str.xy;
     // What the map holds ends at the far plane.
     str.z = clamp(str.z + dot(slope.value, toCentre), 0.0, 1.0);
-    float unsure = (1.0 + 2.0 * uSnap) * slope.atMost - abs(slope.value.x) - abs(slope.value.y);
-    bias = Q + C + 0.5 / mapSize * unsure;
+    bias = planeBias(slope, perQ, mapSize, rounding) + Q + C;
 #endif
 
     float zShadow = nearestDepth(texelAt(str.xy));

@@ -9,14 +9,16 @@ struct Receiver {
     vec3 str;    // where the point falls on the map, and its depth
     float perQ;  // 1 / q
     DepthSlope slope;
+    vec3 rounding;  // of s (and t), r, q before the division
 };
 
 // False when the map cannot tell, and `decided` is S by decree (chapter 02). dx, dy: differences of pShadow between neighbouring
 // pixels, taken before any branch.
-bool receiverOnMap(vec4 pShadow, vec4 dx, vec4 dy, out Receiver receiver, out float decided) {
+bool receiverOnMap(vec4 pShadow, vec3 pWorld, vec4 dx, vec4 dy, out Receiver receiver, out float decided) {
     bool onMap = projectOnMap(pShadow, receiver.str, decided);
     receiver.perQ = 1.0 / pShadow.w;
     receiver.slope = depthSlope(pShadow, receiver.str, dx, dy, receiver.perQ);
+    receiver.rounding = roundingAt(pShadow, pWorld);
     return onMap;
 }
 
@@ -39,9 +41,10 @@ float reachOfSquare(Receiver receiver, float texels) {
 float kernelBias(Receiver receiver, float reach) {
     float mapSize = float(textureSize(uShadowMap, 0).x);
     DepthSlope slope = receiver.slope;
-    float unsure = (1.0 + 2.0 * uSnap) * slope.atMost - abs(slope.value.x) - abs(slope.value.y);
-    float S = uFollowPlane > 0.0 ? 0.5 / mapSize * unsure : slopeBias(slope, receiver.perQ, mapSize);
-    return uBias * (S + reach + quantumBias(receiver.str.z) + roundingBias(slope, receiver.perQ, receiver.str.z));
+    float perQ = receiver.perQ, z = receiver.str.z;
+    float S = uFollowPlane > 0.0 ? planeBias(slope, perQ, mapSize, receiver.rounding)
+                                 : slopeBias(slope, perQ, mapSize, receiver.rounding);
+    return uBias * (S + reach + quantumBias(z) + roundingBias(slope, perQ, z, receiver.rounding));
 }
 // [end:kernel-bias]
 

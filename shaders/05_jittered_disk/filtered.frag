@@ -12,6 +12,6 @@ void main() {
     vec4 dx = dFdx(strq), dy = dFdy(strq);
     Receiver receiver;
     float S;
-    if (receiverOnMap(strq, dx, dy, receiver, S)) S = diskVisibility(receiver);
+    if (receiverOnMap(strq, pWorld, dx, dy, receiver, S)) S = diskVisibility(receiver);
     outColor = viewOf(pWorld, nWorld, vUv, S);
 }

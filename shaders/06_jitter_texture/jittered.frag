@@ -21,6 +21,6 @@ void main() {
     vec4 dx = dFdx(strq), dy = dFdy(strq);
     Receiver receiver;
     float S;
-    if (receiverOnMap(strq, dx, dy, receiver, S)) S = jitteredVisibility(receiver);
+    if (receiverOnMap(strq, pWorld, dx, dy, receiver, S)) S = jitteredVisibility(receiver);
     outColor = viewOf(pWorld, nWorld, vUv, S);
 }

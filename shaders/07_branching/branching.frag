@@ -133,7 +133,7 @@ void main() {
     vec4 dx = dFdx(strq), dy = dFdy(strq);
     Receiver receiver;
     float S;
-    bool onMap = receiverOnMap(strq, dx, dy, receiver, S);
+    bool onMap = receiverOnMap(strq, pWorld, dx, dy, receiver, S);
     Work work;
     work.receives = onMap && dot(facingNormal(nWorld), toLight) > 0.0;
     work.looked = work.receives && !outOfReach(receiver);

@@ -274,9 +274,7 @@ AcneCount acneOnPlanes(const std::string& bias, const std::string& width, bool b
         harness.set("bias", bias);
         harness.set("depth-format", format);
         harness.set("map-size", std::to_string(128 << (i % 3)));
-        const AcneCount count = countAcne(harness, 160, 0.999f);
-        total.receivers += count.receivers;
-        total.dark += count.dark;
+        total += countAcne(harness, 160, 0.999f);
     }
     return total;
 }

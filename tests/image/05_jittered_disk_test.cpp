@@ -205,9 +205,7 @@ AcneCount acneOnPlanes(const std::string& bias, const std::string& radius, const
         harness.set("receiver-plane", plane);
         harness.set("bias", bias);
         harness.set("map-size", std::to_string(128 << (i % 3)));
-        const AcneCount count = countAcne(harness, 128, 0.999f);
-        total.receivers += count.receivers;
-        total.dark += count.dark;
+        total += countAcne(harness, 128, 0.999f);
     }
     return total;
 }

@@ -32,11 +32,28 @@ inline Scene tiltedPlane(double tilt, LightType type, std::mt19937& random) {
         .take();
 }
 
+/// Turns the camera of a tiltedPlane about its axis until the seam of the plane's two triangles runs into the
+/// picture's corners, within a tenth of a degree: clipping leaves one triangle with a sliver along the seam,
+/// which is as long as the picture and a small part of a pixel wide.
+inline void turnSeamIntoCorners(Scene& scene, std::mt19937& random) {
+    Camera& camera = scene.cameras[0];
+    const glm::dvec3 seam = glm::dvec3(scene.positions[2]) - glm::dvec3(scene.positions[0]);
+    const glm::dvec3 along = glm::normalize(seam - camera.forward * glm::dot(seam, camera.forward));
+    const double angle =
+        (45.0 + std::uniform_real_distribution<double>(-0.1, 0.1)(random)) * radiansPerDegree;
+    camera.up = std::cos(angle) * along + std::sin(angle) * glm::cross(camera.forward, along);
+}
+
 /// Counts of one picture of a plane on which everything is lit.
 struct AcneCount {
     std::size_t receivers = 0;  ///< whose angle to the light is at most 85 degrees
     std::size_t dark = 0;
     double fraction() const { return receivers ? double(dark) / double(receivers) : 0.0; }
+    AcneCount& operator+=(const AcneCount& other) {
+        receivers += other.receivers;
+        dark += other.dark;
+        return *this;
+    }
 };
 
 /// `lit`: less visibility than that is dark.
