@@ -18,6 +18,7 @@ struct SceneMaker {
 constexpr SceneMaker makers[] = {
     {"heckbert_herf.glb", makeHeckbertHerf},
     {"contact.glb", makeContact},
+    {"contact_panel.glb", makeContactPanel},
     {"spheres.glb", makeSpheres},
     {"gully.glb", makeGully},
     {"room.glb", makeRoom},

@@ -7,6 +7,7 @@ namespace penumbra::assets {
 
 GlbWriter makeHeckbertHerf();
 GlbWriter makeContact();
+GlbWriter makeContactPanel();
 GlbWriter makeSpheres();
 GlbWriter makeGully();
 GlbWriter makeRoom();
