@@ -69,6 +69,7 @@ TEST_P(EachContext, DrawsWhatItWasTold) {
 
 TEST_P(EachContext, ReportsAnErrorOnceAtTheNextCheck) {
     glEnable(GL_TEXTURE_2D);  // not an enable of core OpenGL, nor of ES
+    glDepthFunc(GL_TRIANGLES);
     try {
         checkGlErrors("in the test");
         FAIL() << "the error went unnoticed";
@@ -76,6 +77,8 @@ TEST_P(EachContext, ReportsAnErrorOnceAtTheNextCheck) {
         const std::string message = error.what();
         EXPECT_NE(message.find("in the test"), std::string::npos) << message;
         EXPECT_NE(message.find("glEnable"), std::string::npos) << "KHR_debug names the call: " << message;
+        EXPECT_EQ(message.find("glDepthFunc"), std::string::npos)
+            << "the first error is the cause: " << message;
     }
     EXPECT_NO_THROW(checkGlErrors("afterwards"));
 }

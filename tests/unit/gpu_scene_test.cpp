@@ -9,6 +9,7 @@
 
 #include "common/gl/render_target.h"
 #include "common/scene/camera.h"
+#include "tests/image/mutated_shaders.h"
 #include "tests/image/small_scenes.h"
 #include "tests/unit/gl_contexts.h"
 
@@ -85,14 +86,15 @@ class GpuSceneTest : public ContextTest {
         return depth;
     }
 
-    FloatImage shadedPicture(const VisibleClusters& visible, DrawCounts* counts = nullptr) {
+    FloatImage shadedPicture(const VisibleClusters& visible, DrawCounts* counts = nullptr,
+                             std::vector<std::string> defines = {}) {
         const GpuScene gpu(scene_, capabilities());
         RenderTarget target({size, size}, capabilities());
         target.bind();
         glEnable(GL_DEPTH_TEST);
         glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        Program program("tests/attributes.vert", "tests/material.frag");
+        Program program("tests/attributes.vert", "tests/material.frag", std::move(defines));
         program.set("uClipFromWorld", glm::mat4(clipFromWorld_));
         const DrawCounts drawn = gpu.drawShaded(program, visible);
         if (counts) *counts = drawn;
@@ -188,11 +190,57 @@ TEST_P(GpuSceneTest, EachPartHasItsOwnMaterial) {
         .flatCamera({0, 0, 3}, {0, 0, 0}, 2.0);
     scene_ = small.take();
     clipFromWorld_ = clipFromWorld(scene_.cameras[0], 1.0);
-    scene_.materials.emplace_back().diffuse = {0.25f, 0.5f, 0.75f};
+    Material& right = scene_.materials.emplace_back();
+    right.diffuse = {0.25f, 0.5f, 0.75f};
+    right.specular = {0.5f, 0.25f, 0.125f};
+    right.shininess = 64.0f;
     scene_.parts[1].material = 1;
     const FloatImage picture = shadedPicture(allClusters(scene_));
     EXPECT_EQ(picture.at(size / 4, size / 2, 2), 0.8f);
     EXPECT_EQ(picture.at(3 * size / 4, size / 2, 2), 0.75f);
+    const FloatImage gloss = shadedPicture(allClusters(scene_), nullptr, {"SHOW_GLOSS"});
+    EXPECT_EQ(gloss.at(size / 4, size / 2, 0), 0.04f);
+    EXPECT_EQ(gloss.at(size / 4, size / 2, 3), 30.0f);
+    EXPECT_EQ(gloss.at(3 * size / 4, size / 2, 2), 0.125f);
+    EXPECT_EQ(gloss.at(3 * size / 4, size / 2, 3), 64.0f);
+}
+
+TEST_P(GpuSceneTest, DepthOfAPictureIsFinerThanSixteenBits) {
+    SmallScene small;
+    small.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0})
+        .quad({-1, -1, 0.003}, {2, 0, 0}, {0, 2, 0})  // of a range of 1000 m; a 65536th is 15 mm
+        .flatCamera({0, 0, 3}, {0, 0, 0}, 2.0);
+    scene_ = small.take();
+    clipFromWorld_ = clipFromWorld(scene_.cameras[0], 1.0);
+    scene_.materials.emplace_back().diffuse = glm::vec3(0.25f);
+    scene_.parts[1].material = 1;
+    EXPECT_EQ(shadedPicture(allClusters(scene_)).at(size / 2, size / 2, 0), 0.25f) << "the nearer of the two";
+}
+
+TEST_P(GpuSceneTest, EmissionLeavesTheFrontOnly) {
+    SmallScene small;
+    small.quad({-2, -1, 0}, {2, 0, 0}, {0, 2, 0})
+        .quad({2, -1, 0}, {-2, 0, 0}, {0, 2, 0})
+        .flatCamera({0, 0, 3}, {0, 0, 0}, 2.0);
+    scene_ = small.take();
+    clipFromWorld_ = clipFromWorld(scene_.cameras[0], 1.0);
+    scene_.materials[0].diffuse = {0.5f, 0.5f, 0.5f};
+    scene_.materials[0].emission = {4.0f, 2.0f, 1.0f};
+    const FloatImage picture = shadedPicture(allClusters(scene_));
+    EXPECT_EQ(picture.at(size / 4, size / 2, 0), 4.5f);
+    EXPECT_EQ(picture.at(3 * size / 4, size / 2, 0), 0.5f) << "its back";
+}
+
+TEST_P(GpuSceneTest, VerticesOfOnePositionAreOneInTheDepthPass) {
+    // The six corners of a square, two of which coincide with earlier ones: these must not be asked for.
+    const MutatedShaders mutated("tests/position.vert", "vec4(aPosition, 1.0);",
+                                 "vec4(gl_VertexID == 3 || gl_VertexID == 4 ? vec3(9.0) : aPosition, 1.0);");
+    SmallScene small;
+    small.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}).flatCamera({0, 0, 3}, {0, 0, 0}, 2.0);
+    scene_ = small.take();
+    clipFromWorld_ = clipFromWorld(scene_.cameras[0], 1.0);
+    const VisibleClusters all = allClusters(scene_);
+    EXPECT_EQ(covered(depthMap({.visible = &all})), std::size_t(size) * size);
 }
 
 TEST_P(GpuSceneTest, TheFirstRowOfATextureIsAtVZeroAndDecoded) {
@@ -219,9 +267,11 @@ TEST_P(GpuSceneTest, TheFirstRowOfATextureIsAtVZeroAndDecoded) {
 }
 
 TEST_P(GpuSceneTest, WithoutMultiDrawThePictureIsTheSame) {
-    const VisibleClusters visible = visibleClusters(scene_, Frustum(clipFromWorld_));
+    VisibleClusters visible = visibleClusters(scene_, Frustum(clipFromWorld_));
+    visible.clusters.erase(visible.clusters.begin() + 1);  // a gap: two ranges
     Capabilities less = capabilities();
     less.multiDraw = false;
+    DrawCounts counts;
     const auto draw = [&](const Capabilities& can) {
         const GpuScene gpu(scene_, can);
         RenderTarget target({size, size}, can);
@@ -230,10 +280,13 @@ TEST_P(GpuSceneTest, WithoutMultiDrawThePictureIsTheSame) {
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         Program program("tests/attributes.vert", "tests/material.frag");
         program.set("uClipFromWorld", glm::mat4(clipFromWorld_));
-        gpu.drawShaded(program, visible);
+        counts = gpu.drawShaded(program, visible);
         return target.read(4);
     };
-    EXPECT_EQ(draw(capabilities()), draw(less));
+    const FloatImage inOneCall = draw(capabilities());
+    EXPECT_EQ(counts.drawCalls, capabilities().multiDraw ? 1u : 2u);
+    EXPECT_EQ(inOneCall, draw(less));
+    EXPECT_EQ(counts.drawCalls, 2u);
 }
 
 TEST_P(GpuSceneTest, ASceneWithNothingInItDrawsNothing) {
@@ -276,8 +329,14 @@ TEST_P(RenderTargetTest, WithoutFloatColourItFallsBack) {
 }
 
 TEST_P(RenderTargetTest, ImpossibleSizesAreRefused) {
-    EXPECT_THROW(RenderTarget({0, 4}, capabilities()), Error);
-    EXPECT_THROW(RenderTarget({4, 1 << 20}, capabilities()), Error);
+    for (const glm::ivec2& size : {glm::ivec2(0, 4), glm::ivec2(4, -1), glm::ivec2(4, 1 << 20)}) {
+        try {
+            RenderTarget(size, capabilities());
+            ADD_FAILURE() << size.x << ' ' << size.y;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("allows 1 to "), std::string::npos) << error.what();
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, RenderTargetTest, allContextKinds(), contextKindName);

@@ -40,6 +40,9 @@ class ShaderFolder {
     }
     void write(const std::string& name, const std::string& text) {
         std::ofstream(root_ / name) << text;
+        touch(name);
+    }
+    void touch(const std::string& name) {
         // File times are coarse; each write must be seen as newer than the last.
         fs::last_write_time(root_ / name, fs::file_time_type::clock::now() + std::chrono::seconds(++writes_));
     }
@@ -126,6 +129,8 @@ TEST_P(ProgramTest, AFileIsIncludedOnce) {
     Program program("full.vert", "ok.frag");
     EXPECT_EQ(draw(program), glm::vec4(1.0f, 2.0f, 0.0f, 1.0f));
     EXPECT_EQ(program.sourceFiles().size(), 4u);
+    shaders_.write("also.vert", "#include \"common/one.glsl\"\nvoid main() { gl_Position = vec4(one()); }\n");
+    EXPECT_EQ(Program("also.vert", "ok.frag").sourceFiles().size(), 4u) << "watched once, used by two stages";
 }
 
 TEST_P(ProgramTest, DefinesReachBothStages) {
@@ -133,6 +138,9 @@ TEST_P(ProgramTest, DefinesReachBothStages) {
     EXPECT_NE(compileError("d.frag"), "");
     Program program("full.vert", "d.frag", {"TAPS 16", "UNUSED"});
     EXPECT_EQ(draw(program).x, 16.0f);
+    shaders_.write("none.vert", "void main() { gl_Position = vec4(float(TAPS)); }\n");
+    EXPECT_NE(errorOf([] { Program("none.vert", "d.frag"); }), "");
+    EXPECT_EQ(errorOf([] { Program("none.vert", "d.frag", {"TAPS 16"}); }), "");
 }
 
 TEST_P(ProgramTest, EveryTypeOfUniformArrives) {
@@ -188,6 +196,17 @@ TEST_P(ProgramTest, UniformMistakesAreErrors) {
     EXPECT_EQ(draw(program).x, 0.75f);
 }
 
+TEST_P(ProgramTest, AnArrayGoesByItsName) {
+    shaders_.write("a.frag",
+                   "uniform float uWeights[2];\nout vec4 color;\n"
+                   "void main() { color = vec4(uWeights[0] + uWeights[1]); }\n");
+    Program program("full.vert", "a.frag");
+    EXPECT_EQ(errorOf([&] { program.prepareToDraw(); }),
+              "full.vert + a.frag would draw with uniforms that were never set: uWeights");
+    program.set("uWeights", 2.0f);
+    EXPECT_EQ(draw(program).x, 2.0f);
+}
+
 TEST_P(ProgramTest, TexturesOfOneProgramGetUnitsOfTheirOwn) {
     shaders_.write("t.frag",
                    "uniform sampler2D uA;\nuniform sampler2D uB;\nout vec4 color;\n"
@@ -206,6 +225,10 @@ TEST_P(ProgramTest, TexturesOfOneProgramGetUnitsOfTheirOwn) {
     EXPECT_EQ(draw(program).x, 21.0f);
     program.setTexture("uA", GL_TEXTURE_2D, b.colorTexture());
     EXPECT_EQ(draw(program).x, 22.0f);
+    program.prepareToDraw();
+    GLint active = 0;
+    glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
+    EXPECT_EQ(active, GL_TEXTURE0) << "the caller's next glBindTexture must not take a unit of the program";
 }
 
 TEST_P(ProgramTest, ASamplerObjectCountsForItsOwnTextureOnly) {
@@ -240,6 +263,9 @@ TEST_P(ProgramTest, SettingLeavesTheProgramInUseAlone) {
     GLint current = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &current);
     EXPECT_EQ(GLuint(current), first.id());
+    Program("full.vert", "u.frag").use();  // and is deleted while in use
+    second.set("uX", 2.0f);
+    EXPECT_NO_THROW(checkGlErrors("setting a uniform after the program in use is gone"));
 }
 
 TEST_P(ProgramTest, ReloadKeepsTheLastGoodProgramAndItsValues) {
@@ -270,6 +296,27 @@ TEST_P(ProgramTest, ReloadKeepsTheLastGoodProgramAndItsValues) {
     EXPECT_TRUE(program.sourcesChanged()) << "the missing file is watched too";
     EXPECT_EQ(program.reload(), "");
     EXPECT_EQ(draw(program).x, 6.0f);
+
+    for (const char* name : {"full.vert", "r.frag", "common/part.glsl", "common/new.glsl"}) {
+        shaders_.touch(name);
+        EXPECT_TRUE(program.sourcesChanged()) << name;
+        EXPECT_EQ(program.reload(), "");
+        EXPECT_FALSE(program.sourcesChanged()) << name;
+    }
+    shaders_.write("r.frag", "#include \"common/gone.glsl\"\n" + body);
+    EXPECT_CONTAINS(program.reload(), "no shader file shaders/common/gone.glsl");
+    shaders_.touch("common/part.glsl");
+    EXPECT_TRUE(program.sourcesChanged()) << "what lies behind the error is watched still";
+    shaders_.write("r.frag", "#include \"common/new.glsl\"\n" + body);
+    EXPECT_EQ(program.reload(), "");
+
+    shaders_.write("r.frag", "uniform float uNew;\n#include \"common/new.glsl\"\n" + body + "// uNew\n");
+    EXPECT_EQ(program.reload(), "");
+    EXPECT_EQ(errorOf([&] { program.prepareToDraw(); }), "") << "declared, and not used";
+    shaders_.write("common/part.glsl", "float part() { return 2.0 + uNew; }\n");
+    shaders_.write("r.frag", "uniform float uNew;\n#include \"common/new.glsl\"\n" + body);
+    EXPECT_EQ(program.reload(), "");
+    EXPECT_CONTAINS(errorOf([&] { program.prepareToDraw(); }), "never set: uNew");
 
     shaders_.remove("common/new.glsl");
     EXPECT_FALSE(program.sourcesChanged()) << "an editor is replacing the file: wait for the new one";
@@ -302,6 +349,19 @@ TEST(ShaderLog, NotationsOfTheDrivers) {
               "shaders/b.glsl:7: error C1503: undefined");
     EXPECT_EQ(nameFilesInLog("something else\n\n9:1: no such file", files),
               "something else\n9:1: no such file");
+}
+
+TEST(ShaderSource, InEsEverySamplerIsGivenFullPrecision) {
+    // Most samplers have no default precision there: strict drivers refuse the shader, others use 16 bits.
+    const ShaderFolder shaders;
+    std::vector<fs::path> opened;
+    const std::string text = loadShaderSource("full.vert", {}, Api::es, opened).text;
+    EXPECT_EQ(text.rfind("#version 300 es\n", 0), 0u);
+    for (const GLenum type :
+         {GL_SAMPLER_2D, GL_SAMPLER_3D, GL_SAMPLER_CUBE, GL_SAMPLER_2D_ARRAY, GL_SAMPLER_2D_SHADOW,
+          GL_SAMPLER_CUBE_SHADOW, GL_SAMPLER_2D_ARRAY_SHADOW, GL_INT_SAMPLER_2D, GL_UNSIGNED_INT_SAMPLER_2D,
+          GL_UNSIGNED_INT_SAMPLER_3D, GL_FLOAT, GL_INT})
+        EXPECT_CONTAINS(text, "precision highp " + glslTypeName(type) + ";\n");
 }
 
 TEST(ShaderSource, UniformsAreFoundWhateverTheLayout) {
