@@ -59,10 +59,8 @@ bool joinAcrossEdges(const std::vector<DirectedEdge>& edges, std::vector<std::ui
         if (i + 1 == edges.size()) return false;
         const DirectedEdge &down = edges[i], &up = edges[i + 1];
         if (down.low != up.low || down.high != up.high || down.low == down.high) return false;
+        // Of more than two triangles on one edge the first two, or the next two, run the same way.
         if (down.upwards || !up.upwards) return false;
-        // A third triangle on this edge would be the next pair's first, with the same vertices.
-        if (i + 2 < edges.size() && edges[i + 2].low == down.low && edges[i + 2].high == down.high)
-            return false;
         parent[rootOf(parent, down.triangle)] = rootOf(parent, up.triangle);
     }
     return true;
