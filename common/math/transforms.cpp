@@ -80,8 +80,7 @@ glm::dmat4 textureFromClip(DepthRange range) {
 }
 
 glm::dvec2 depthSlope(const glm::dmat4& textureFromWorld, const glm::dvec3& p, const glm::dvec3& n) {
-    // A plane is a row vector, so it is carried by the inverse transpose. Taken relative to p it is (n, 0):
-    // the offset -n.p, whose rounding grows with the distance from the origin, is never formed.
+    // A plane is a row vector, so it is carried by the inverse transpose. Taken relative to p it is (n, 0).
     const glm::dmat4 textureFromLocal = glm::translate(textureFromWorld, p);
     const glm::dvec4 plane = glm::inverse(glm::transpose(textureFromLocal)) * glm::dvec4(n, 0.0);
     // Edge-on exactly, plane.z is 0: an axis that the plane contains then gives 0, the other infinity, and

@@ -148,15 +148,18 @@ TEST(DepthSlope, IsZeroFacingTheLightAndHugeEdgeOn) {
     EXPECT_GT(std::max(std::abs(edgeOn.x), std::abs(edgeOn.y)), 1e12);
 }
 
-TEST(DepthSlope, KeepsItsPrecisionFarFromTheOrigin) {
-    // The matrix is built relative to an origin near the camera; only p may be large. The plane's offset n.p,
-    // if it were formed, would lose seven digits here.
+TEST(DepthSlope, IsTheSameAtEveryPointOfAPlane) {
+    // Under perspective: an orthographic slope does not depend on the point at all. Rounding a point 500 km
+    // away moves it off the plane by 6e-11 m; anything formed in float would be wrong from the eighth digit
+    // on.
     const glm::dmat4 textureFromWorld =
-        textureFromClip() * orthographic(-5, 5, -5, 5, 1, 20) * viewFromWorld({0, 10, 0}, {0.1, -1, 0.2});
-    const glm::dvec3 n = glm::normalize(glm::dvec3(0.4, 1.0, -0.3));
-    const glm::dvec2 nearby = depthSlope(textureFromWorld, {0, 0, 0}, n);
-    const glm::dvec2 farAway = depthSlope(textureFromWorld, {1e6, 1e6, -1e6}, n);
-    EXPECT_LT(glm::distance(nearby, farAway), 1e-8 * glm::length(nearby));
+        textureFromClip() * perspective(1.0, 1.0, 1.0, 20.0) * viewFromWorld({0, 10, 0}, {0.1, -1, 0.2});
+    const glm::dvec3 n(0.6, 0.8, 0.0), p(0.3, 1.1, 0.7);
+    const glm::dvec2 nearby = depthSlope(textureFromWorld, p, n);
+    for (const glm::dvec3& along : {glm::dvec3(4, -3, 0), glm::dvec3(0, 0, 5), glm::dvec3(-4, 3, 2)}) {
+        const glm::dvec2 farAway = depthSlope(textureFromWorld, p + 1e5 * along, n);
+        EXPECT_LT(glm::distance(nearby, farAway), 1e-9 * glm::length(nearby));
+    }
 }
 
 }  // namespace
