@@ -23,7 +23,7 @@ struct RandomEdge {
 
 struct PatternErrors {
     double rms = 0.0;
-    double mean = 0.0;
+    double mean = 0.0;  ///< of the error towards the nearer side: over all edges left and right would cancel
 };
 
 /// Lit share minus the disk's exact coverage, over `trials` edges.
@@ -34,7 +34,7 @@ inline PatternErrors patternErrors(SquarePattern pattern, DiskMap map, int count
         const RandomEdge edge(trial);
         const double error = litShare(points, edge.normal, edge.distance) - diskCoverage(edge.distance, 1.0);
         e.rms += error * error / trials;
-        e.mean += error / trials;
+        e.mean += (edge.distance < 0.0 ? -error : error) / trials;
     }
     e.rms = std::sqrt(e.rms);
     return e;

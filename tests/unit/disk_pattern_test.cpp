@@ -38,7 +38,8 @@ TEST(DiskPattern, PointsLieInSquareAndDiskForAnyCount) {
 TEST(DiskPattern, TheSeedDecides) {
     for (const auto pattern : patterns) {
         EXPECT_EQ(squarePoints(pattern, 16, 1), squarePoints(pattern, 16, 1)) << nameOf(pattern);
-        EXPECT_NE(squarePoints(pattern, 16, 1), squarePoints(pattern, 16, 2)) << nameOf(pattern);
+        const glm::dvec2 one = squarePoints(pattern, 16, 1)[0], two = squarePoints(pattern, 16, 2)[0];
+        EXPECT_TRUE(one.x != two.x && one.y != two.y) << nameOf(pattern);
     }
 }
 
@@ -59,12 +60,14 @@ TEST(DiskPattern, EveryCellOfAGridHoldsOnePoint) {
 }
 
 TEST(DiskPattern, RowsOfAnOddCountHoldWhatTheirHeightSays) {
-    // 31 points: 6 rows of 5 or 6 cells. Any fraction f of the square's height holds 31 f points, give or
-    // take a row.
-    const auto points = squarePoints(SquarePattern::jittered, 31, 9);
-    for (const double height : {0.2, 0.5, 0.8}) {
-        const auto below = [&](const glm::dvec2& p) { return p.y < height; };
-        EXPECT_NEAR(double(std::count_if(points.begin(), points.end(), below)), 31 * height, 6.0);
+    // 31 points: 6 rows of 5 or 6 cells, of which all have the same area.
+    for (const auto& [count, inFirstRows] : {std::pair(31, 15), std::pair(5, 2), std::pair(7, 2)}) {
+        const double height = double(inFirstRows) / count;
+        for (std::uint32_t seed = 0; seed < 50; ++seed) {
+            const auto points = squarePoints(SquarePattern::jittered, count, seed);
+            const auto below = [&](const glm::dvec2& p) { return p.y < height; };
+            EXPECT_EQ(std::count_if(points.begin(), points.end(), below), inFirstRows) << count;
+        }
     }
 }
 
@@ -160,6 +163,7 @@ TEST(DiskPattern, MeansAreUnbiased) {
         for (const auto map : {DiskMap::concentric, DiskMap::polar})
             for (const int count : {5, 16, 31, 64})
                 EXPECT_LT(std::abs(zScore(pattern, map, count)), 4.6) << nameOf(pattern) << ", " << count;
+    EXPECT_GT(std::abs(zScore(SquarePattern::sobol, DiskMap::polarLinear, 64)), 10.0) << "a bias is seen";
 }
 
 TEST(DiskPattern, WithoutTheSquareRootItNeverConverges) {
@@ -179,6 +183,14 @@ TEST(DiskPattern, NamesAreChecked) {
         EXPECT_EQ(std::size_t(squarePattern(squarePatternNames()[i])), i);
     for (std::size_t i = 0; i < diskMapNames().size(); ++i)
         EXPECT_EQ(std::size_t(diskMap(diskMapNames()[i])), i);
+    EXPECT_EQ(squarePattern("random"), SquarePattern::random);
+    EXPECT_EQ(squarePattern("regular"), SquarePattern::regular);
+    EXPECT_EQ(squarePattern("jittered"), SquarePattern::jittered);
+    EXPECT_EQ(squarePattern("fibonacci"), SquarePattern::fibonacci);
+    EXPECT_EQ(squarePattern("sobol"), SquarePattern::sobol);
+    EXPECT_EQ(diskMap("concentric"), DiskMap::concentric);
+    EXPECT_EQ(diskMap("polar"), DiskMap::polar);
+    EXPECT_EQ(diskMap("polar-linear"), DiskMap::polarLinear);
     EXPECT_THROW(squarePattern("rings"), UsageError);
     EXPECT_THROW(diskMap("square"), UsageError);
 }
