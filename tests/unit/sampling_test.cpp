@@ -30,8 +30,28 @@ TEST(OwenSobol, EveryPrefixOfAPowerOfTwoIsANet) {
             EXPECT_TRUE(isNet({points.begin(), points.begin() + long(count)}))
                 << count << " points, seed " << seed;
         }
-        for (const glm::dvec2& p : points) EXPECT_TRUE(p.x >= 0.0 && p.x < 1.0 && p.y >= 0.0 && p.y < 1.0);
+        for (const glm::dvec2& p : points) {
+            EXPECT_TRUE(p.x >= 0.0 && p.x < 1.0 && p.y >= 0.0 && p.y < 1.0);
+            EXPECT_NE(p.x, p.y) << "both coordinates scrambled alike";
+        }
     }
+}
+
+TEST(OwenSobol, PatternsOfTwoSeedsAreIndependentPointByPoint) {
+    // Paired by their index, as a pixel's sample and its light sample are. Of 64 points 32 lie left in each
+    // pattern; how many lie left in both is hypergeometric: mean 16, standard deviation 2. If the order of
+    // the points were not shuffled, it would be 0 or 32, whatever the seeds.
+    double mean = 0.0, variance = 0.0;
+    constexpr int trials = 1000;
+    for (std::uint32_t trial = 0; trial < trials; ++trial) {
+        int both = 0;
+        for (std::uint32_t i = 0; i < 64; ++i)
+            both += owenSobol(i, hashSeed(trial, 1)).x < 0.5 && owenSobol(i, hashSeed(trial, 2)).x < 0.5;
+        mean += double(both) / trials;
+        variance += (both - 16.0) * (both - 16.0) / trials;
+    }
+    EXPECT_NEAR(mean, 16.0, 1.0);
+    EXPECT_LT(variance, 64.0);
 }
 
 TEST(OwenSobol, IsUnbiasedAndItsErrorFallsAsItShould) {
@@ -107,21 +127,32 @@ TEST(PointInPolygon, GivesEachTriangleItsShare) {
     EXPECT_NEAR(mean.y, centroid.y, 2e-3);
 }
 
+TEST(PointInPolygon, AQuadrilateralThatIsNoParallelogramGoesByTriangles) {
+    const std::vector<glm::dvec3> trapezium = {{0, 0, 0}, {4, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+    const glm::dvec3 mean = meanOf([&](const glm::dvec2& u) { return pointInPolygon(trapezium, u); });
+    // A square and half a square: ((1, 1) * 4 + (8/3, 2/3) * 2) / 6. A column of 256 may fall into the wrong
+    // triangle.
+    EXPECT_NEAR(mean.x, 14.0 / 9.0, 4.0 / 256);
+    EXPECT_NEAR(mean.y, 8.0 / 9.0, 4.0 / 256);
+}
+
 TEST(PointInPolygon, MapsAParallelogramDirectly) {
     const std::vector<glm::dvec3> square = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
     EXPECT_EQ(pointInPolygon(square, {0.25, 0.75}), glm::dvec3(-0.5, 2, 0.5));
 }
 
 TEST(ConcentricDisk, PreservesAreaAndStaysInside) {
-    double second = 0.0;
+    double second = 0.0, first = 0.0;
     constexpr int n = 512;
     for (int y = 0; y < n; ++y) {
         for (int x = 0; x < n; ++x) {
             const glm::dvec2 d = concentricDisk({(x + 0.5) / n, (y + 0.5) / n});
             EXPECT_LE(glm::length(d), 1.0);
             second += glm::dot(d, d);
+            first += d.x * d.x;
         }
     }
+    EXPECT_NEAR(first / (n * n), 0.25, 1e-5) << "no wedge covered twice";
     EXPECT_NEAR(second / (n * n), 0.5, 1e-5);  // E[r^2] of a uniform disk
     EXPECT_EQ(concentricDisk({0.5, 0.5}), glm::dvec2(0.0));
     EXPECT_LE(glm::length(concentricDisk({1.0, 0.5}) - glm::dvec2(1.0, 0.0)), 1e-15);
