@@ -12,7 +12,8 @@ Camera someCamera(bool orthographic) {
     Camera camera;
     camera.position = {1.0, 2.0, 3.0};
     camera.forward = glm::normalize(glm::dvec3(0.3, -0.5, -0.8));
-    camera.up = glm::normalize(glm::cross(glm::cross(camera.forward, glm::dvec3(0, 1, 0)), camera.forward));
+    camera.up =
+        glm::normalize(glm::cross(glm::cross(camera.forward, glm::dvec3(0.3, 1, 0.2)), camera.forward));
     camera.orthographic = orthographic;
     camera.verticalFov = 0.9;
     camera.height = 3.0;

@@ -80,17 +80,24 @@ TEST(Culling, NoFarPlaneDropsNothingFarAway) {
     }
 }
 
-/// Three parts along X, of two, one and two clusters of one triangle each.
+TEST(Culling, TheMarginIsAMillionth) {
+    const Frustum frustum(orthographic(-1, 1, -1, 1, -1, 1));
+    const auto beyond = [](double gap) { return Aabb{glm::dvec3(1 + gap, 0, 0), glm::dvec3(2, 0.5, 0.5)}; };
+    EXPECT_TRUE(frustum.mayTouch(beyond(1e-7))) << "floats in a shader may see it inside";
+    EXPECT_FALSE(frustum.mayTouch(beyond(1e-5)));
+}
+
+/// Three parts along X, of two, one and two clusters; cluster i has i + 1 triangles.
 Scene rowOfClusters() {
     Scene scene;
     const std::uint32_t partOf[] = {0, 0, 1, 2, 2};
-    for (std::uint32_t i = 0; i < 5; ++i) {
+    for (std::uint32_t i = 0, first = 0; i < 5; first += ++i) {
         const Aabb box{glm::dvec3(2.0 * i, 0, 0), glm::dvec3(2.0 * i + 1, 1, 1)};
-        scene.clusters.push_back({i, 1, partOf[i], box});
-        if (scene.parts.size() <= partOf[i]) scene.parts.push_back({"part", i, 0, 0, {}, false});
-        scene.parts.back().triangleCount += 1;
+        scene.clusters.push_back({first, i + 1, partOf[i], box});
+        if (scene.parts.size() <= partOf[i]) scene.parts.push_back({"part", first, 0, 0, {}, false});
+        scene.parts.back().triangleCount += i + 1;
         scene.parts.back().bounds.extend(box);
-        scene.indices.insert(scene.indices.end(), {0, 0, 0});
+        scene.indices.resize(scene.indices.size() + 3 * (i + 1));
     }
     return scene;
 }
@@ -103,10 +110,13 @@ Frustum slab(double left, double right) {
 TEST(Culling, VisibleClustersAreThoseOfTheFrustum) {
     const Scene scene = rowOfClusters();
     EXPECT_EQ(visibleClusters(scene, slab(-1, 20)), allClusters(scene));
-    EXPECT_EQ(allClusters(scene).triangles, 5u);
+    EXPECT_EQ(allClusters(scene).triangles, 15u);
     const VisibleClusters some = visibleClusters(scene, slab(2.5, 6.5));
     EXPECT_EQ(some.clusters, (std::vector<std::uint32_t>{1, 2, 3}));
-    EXPECT_EQ(some.triangles, 3u);
+    EXPECT_EQ(some.triangles, 9u);
+    const VisibleClusters last = visibleClusters(scene, slab(3.5, 20));
+    EXPECT_EQ(last.clusters, (std::vector<std::uint32_t>{2, 3, 4}))
+        << "a part left out takes no other with it";
     EXPECT_TRUE(visibleClusters(scene, slab(50, 60)).clusters.empty());
 }
 
@@ -115,13 +125,13 @@ TEST(Culling, NeighboursAreJoinedIntoOneDrawCall) {
     const auto everything = [](std::uint32_t) { return true; };
     const auto ranges = joinRanges(scene, allClusters(scene), everything);
     ASSERT_EQ(ranges.size(), 1u);
-    EXPECT_EQ(ranges[0].triangleCount, 5u);
+    EXPECT_EQ(ranges[0].triangleCount, 15u);
     const auto withoutMiddle =
         joinRanges(scene, allClusters(scene), [](std::uint32_t part) { return part != 1; });
     ASSERT_EQ(withoutMiddle.size(), 2u);
-    EXPECT_EQ(withoutMiddle[0].triangleCount, 2u);
-    EXPECT_EQ(withoutMiddle[1].firstTriangle, 3u);
-    EXPECT_EQ(withoutMiddle[1].triangleCount, 2u);
+    EXPECT_EQ(withoutMiddle[0].triangleCount, 3u);
+    EXPECT_EQ(withoutMiddle[1].firstTriangle, 6u);
+    EXPECT_EQ(withoutMiddle[1].triangleCount, 9u);
 }
 
 }  // namespace

@@ -66,6 +66,8 @@ TEST(HostileContainer, EveryTruncationOfAGlbIsRefused) {
         EXPECT_NE(errorOf(FileBytes(whole.begin(), whole.begin() + std::ptrdiff_t(size))), "")
             << size << " bytes";
     }
+    for (std::ptrdiff_t size = 4; size < 20; ++size)
+        expectRefused(FileBytes(whole.begin(), whole.begin() + size), "too short for a GLB header");
 }
 
 TEST(HostileContainer, EveryTruncationOfAGltfIsRefused) {
@@ -200,7 +202,9 @@ TEST(HostileReferences, TexturesAndImagesOutOfRange) {
 
 TEST(HostileAccessors, CountsAndOffsetsBeyondTheBuffer) {
     for (const std::uint64_t count : {std::uint64_t(5), std::uint64_t(1) << 31, (std::uint64_t(1) << 31) - 1,
-                                      std::uint64_t(1) << 32, std::uint64_t(1) << 62, ~std::uint64_t(0)}) {
+                                      std::uint64_t(1) << 32, std::uint64_t(1) << 62, ~std::uint64_t(0),
+                                      // Times a stride of 12 or 2 these wrap round to next to nothing.
+                                      (std::uint64_t(1) << 62) + 1, (std::uint64_t(1) << 63) + 1}) {
         expectRefused([&](Json& root) { root["accessors"][0]["count"] = count; }, "reach beyond");
         expectRefused([&](Json& root) { root["accessors"][1]["count"] = 2 + count; },
                       count > ~std::uint64_t(0) - 2 ? "" : "reach beyond");

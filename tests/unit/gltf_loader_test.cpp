@@ -217,8 +217,10 @@ TEST(GltfGeometry, ExternalBufferByPercentEncodedName) {
 TEST(GltfGeometry, EmbeddedBufferLongerThanItsByteLength) {
     GltfBuilder builder = squareScene();
     FileBytes longer = builder.binary;
-    longer.push_back(0);
+    while (longer.size() % 3 != 0) longer.push_back(0);
+    longer.insert(longer.end(), {0xfb, 0xef, 0xbe, 0xff, 0xff, 0xff});  // "++++////"
     const std::string uri = "data:application/octet-stream;base64," + base64(longer);
+    ASSERT_NE(uri.find("++++////"), std::string::npos);
     EXPECT_EQ(trianglesOf(loadGltfFromMemory(builder.gltf(uri), "test.gltf")), squareTriangles);
 }
 

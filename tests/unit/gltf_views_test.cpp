@@ -180,6 +180,13 @@ TEST(GltfLights, PunctualLights) {
     EXPECT_FALSE(hasNote(sun, "sun was added"));
 }
 
+TEST(GltfLights, ABlackLightIsLeftOutWithANote) {
+    const Scene scene = load(litSquare({{"type", "point"}, {"name", "lamp"}, {"intensity", 0}}));
+    EXPECT_TRUE(hasNote(scene, "light lamp is black"));
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.lights[0].type, LightType::directional) << "the sun";
+}
+
 TEST(GltfLights, NoLightGivesASun) {
     const Scene scene = load(squareScene());
     ASSERT_EQ(scene.lights.size(), 1u);

@@ -44,6 +44,7 @@ TEST(Light, SpotConeIsASquaredRampOfTheCosine) {
     const double halfway = std::acos(0.5 * (std::cos(0.2) + std::cos(0.6)));
     EXPECT_NEAR(factorAt(halfway), 0.25, 1e-12);
     EXPECT_NEAR(facingIrradiance(light, {0, 2, 0}).r, 2.0, 1e-12);
+    EXPECT_EQ(facingIrradiance(light, {4, 0, 0}).r, 0.0) << "45 degrees off the axis";
     EXPECT_EQ(spotFactor(lightOf(LightType::point), {0, -1, 0}), 1.0);
 }
 
@@ -52,6 +53,8 @@ TEST(Light, ASpotWithOneConeIsAHardEdge) {
     light.innerCone = light.outerCone;
     EXPECT_EQ(spotFactor(light, -glm::dvec3(std::sin(0.59), -std::cos(0.59), 0)), 1.0);
     EXPECT_EQ(spotFactor(light, -glm::dvec3(std::sin(0.61), -std::cos(0.61), 0)), 0.0);
+    EXPECT_EQ(spotFactor(light, -glm::dvec3(std::sin(0.6), -std::cos(0.6), 0)), 1.0)
+        << "on the edge, not 0 / 0";
 }
 
 TEST(Light, AreaLightFarAwayIsAPointOfTheSameIntensity) {
@@ -82,6 +85,7 @@ TEST(Light, KeyIrradianceOfAllLightsIsTheSumAndNeverZero) {
     const Scene scene = sceneWith({lightOf(LightType::point), lightOf(LightType::area)});
     EXPECT_NEAR(keyIrradiance(scene, -1), keyIrradiance(scene, 0) + keyIrradiance(scene, 1), 1e-12);
     EXPECT_NEAR(keyIrradiance(scene, 0), 14.0 / 3.0 / 16.0, 1e-12);
+    EXPECT_NEAR(keyIrradiance(scene, 1), 14.0 / 3.0 * 0.5 / 16.0, 1e-12);
     EXPECT_EQ(keyIrradiance(sceneWith({}), -1), 1.0);
 }
 
