@@ -118,6 +118,7 @@ TEST_F(ImageCheck, FailsWhenTooMuchIsLeftOut) {
 
 TEST_F(ImageCheck, FailsNaNOtherSizesAndMissingBounds) {
     EXPECT_NE(failuresOf([&] { expectImage("a/b", actual, exact, {}, ImageBounds()); }), "");
+    EXPECT_NE(failuresOf([&] { expectImage("a/b", actual, exact, {}, atMost(std::nan(""))); }), "");
     EXPECT_NE(failuresOf([&] { expectImage("a/b", FloatImage(4, 4, 1), exact, {}, atMost(1)); }), "");
     EXPECT_FALSE(record()["passed"]);
     actual.at(0, 0) = std::nanf("");
