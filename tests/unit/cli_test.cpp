@@ -192,7 +192,9 @@ TEST_F(Cli, TwoRunsGiveIdenticalFiles) {
 }
 
 TEST_F(Cli, QuestionsAreAnsweredOnStandardOutput) {
-    EXPECT_EQ(Json::parse(run({"--list-parameters"}).out).size(), 3u);
+    const Json parameters = Json::parse(run({"--list-parameters"}).out);
+    ASSERT_EQ(parameters.size(), 3u);
+    EXPECT_EQ(parameters[0]["name"], "offset");
     EXPECT_NE(run({"--help"}).out.find("Exit status"), std::string::npos);
     EXPECT_EQ(run({"--version"}).out.rfind("99_tiny", 0), 0u);
     EXPECT_EQ(filesLeft(), 0u);
@@ -256,6 +258,16 @@ TEST_F(Cli, CtrlCEndsWithOneLineAndNoFiles) {
         EXPECT_EQ(result.errorLines(), 1) << result.err;
         EXPECT_TRUE(std::filesystem::remove(folder / "started"));
         EXPECT_EQ(filesLeft(), 0u);
+    }
+}
+
+TEST_F(Cli, KilledInTheMiddleOfWritingItLeavesTheOldPicture) {
+    for (const char* name : {"a.png", "a.exr"}) {
+        writeTextFile(folder / name, "the old picture");
+        ProgramCall limited = call({"--size", "700x700", "--quiet", "--output", name});
+        limited.largestFile = 100;
+        EXPECT_LT(runProgram(limited).status, 0) << "the picture should be larger than that";
+        EXPECT_EQ(bytesOf(folder / name), "the old picture");
     }
 }
 

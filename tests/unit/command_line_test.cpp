@@ -69,6 +69,7 @@ TEST(CommandLine, EveryFlagArrives) {
     EXPECT_EQ(o.scene, "a/b.glb");
     EXPECT_EQ(o.camera, 3);
     EXPECT_EQ(o.size, glm::ivec2(640, 480));
+    EXPECT_EQ(o.windowSize, glm::ivec2(640, 480));
     EXPECT_EQ(o.view, "error");
     EXPECT_EQ(o.output, "o/p.EXR");
     EXPECT_EQ(o.report, "-");
@@ -96,7 +97,8 @@ TEST(CommandLine, FilesAndFiguresImplyHeadless) {
     using Arguments = std::vector<const char*>;
     for (const Arguments& arguments :
          {Arguments{"--output", "a.png"}, Arguments{"--report", "-"}, Arguments{"--compare-truth"},
-          Arguments{"--runs", "2"}, Arguments{"--backend", "osmesa"}, Arguments{"--pass-times"}})
+          Arguments{"--runs", "2"}, Arguments{"--backend", "osmesa"}, Arguments{"--pass-times"},
+          Arguments{"--still"}})
         EXPECT_TRUE(Line().parse(arguments).headless) << arguments.front();
     EXPECT_FALSE(Line().parse({"--scene", "room", "--bias", "2"}).headless);
 }

@@ -38,6 +38,49 @@ TEST(OrbitCamera, StartsAndComesHomeToTheBit) {
     EXPECT_FALSE(same(orbit.camera(), start()));
     orbit.reset();
     EXPECT_TRUE(same(orbit.camera(), start()));
+    OrbitCamera fresh(start(), scene());
+    orbit.orbit(0.2, 0.1);
+    fresh.orbit(0.2, 0.1);
+    EXPECT_TRUE(same(orbit.camera(), fresh.camera())) << "about the point it started with";
+}
+
+TEST(OrbitCamera, PanningShiftsThePictureByTheHand) {
+    for (const bool orthographic : {false, true}) {
+        Camera before = start();
+        before.orthographic = orthographic;
+        before.height = 3.0;
+        OrbitCamera orbit(before, scene());
+        orbit.pan(0.25, 0.125);  // of the height of the window
+        const Camera& after = orbit.camera();
+        const double distance = glm::dot(scene().centre() - before.position, before.forward);
+        const glm::dvec3 target = before.position + distance * before.forward;
+        const double height = orthographic ? 3.0 : 2.0 * std::tan(0.5 * before.verticalFov) * distance;
+        const glm::dvec3 right = glm::cross(after.forward, after.up);
+        EXPECT_EQ(after.forward, before.forward);
+        EXPECT_NEAR(glm::dot(target - after.position, right), 0.25 * height, 1e-12);
+        EXPECT_NEAR(glm::dot(target - after.position, after.up), 0.125 * height, 1e-12);
+        const glm::dvec3 shifted = after.position + distance * after.forward;
+        orbit.orbit(0.4, 0.1);
+        const glm::dvec3 still = orbit.camera().position + distance * orbit.camera().forward;
+        EXPECT_NEAR(glm::distance(still, shifted), 0.0, 1e-9) << "then turns about the new middle";
+    }
+}
+
+TEST(OrbitCamera, ACameraThatStartsSteeperThanTheLimitStaysSo) {
+    Camera down = start();
+    down.forward = {0.0, -1.0, 0.0};
+    down.up = {0.0, 0.0, -1.0};
+    OrbitCamera orbit(down, scene());
+    orbit.orbit(0.3, 0.0);
+    EXPECT_NEAR(orbit.camera().forward.y, -1.0, 1e-12);
+}
+
+TEST(OrbitCamera, ACameraThatLooksAwayFromTheSceneStillZoomsForward) {
+    Camera away = start();
+    away.forward = -away.forward;
+    OrbitCamera orbit(away, scene());
+    orbit.zoom(0.5);
+    EXPECT_GT(glm::dot(orbit.camera().position - away.position, away.forward), 0.0);
 }
 
 TEST(OrbitCamera, KeepsLookingAtTheSamePointFromTheSameDistance) {
@@ -77,12 +120,17 @@ TEST(OrbitCamera, DraggingRightTurnsTheSceneRight) {
 
 TEST(OrbitCamera, ZoomStaysOnThisSideAndKeepsTheSceneInsideTheFrustum) {
     OrbitCamera orbit(start(), scene());
+    const double along = glm::dot(scene().centre() - start().position, start().forward);
+    const glm::dvec3 target = start().position + along * start().forward;
     for (int i = 0; i < 300; ++i) orbit.zoom(0.9);
+    EXPECT_NEAR(glm::distance(orbit.camera().position, target), 1e-3 * along, 1e-9) << "and no further";
     EXPECT_GT(glm::dot(scene().centre() - orbit.camera().position, start().forward), 0.0);
     EXPECT_LT(orbit.camera().near, 0.5 * start().near);
     for (int i = 0; i < 300; ++i) orbit.zoom(1.1);
     const double distance = glm::length(scene().centre() - orbit.camera().position);
     EXPECT_GT(orbit.camera().far, distance + scene().radius());
+    EXPECT_NEAR(glm::distance(orbit.camera().position, target), 1e3 * along, 1e-6 * along)
+        << "and no further";
     EXPECT_TRUE(std::isfinite(distance));
 }
 

@@ -71,6 +71,11 @@ TEST(Parameters, WhatIsNotAllowedIsRefusedWithTheRange) {
     EXPECT_EQ(d.refusal("front-faces", "maybe"), "--front-faces maybe: must be on or off");
     EXPECT_EQ(d.width, 3);
     EXPECT_EQ(d.bias, 0.1f);
+    int offset = 0;
+    d.parameters.add("offset", offset, -5, 5, "", "either way");
+    EXPECT_EQ(d.refusal("offset", "-3"), "");
+    EXPECT_NE(d.refusal("offset", "+-2"), "");
+    EXPECT_EQ(offset, -3);
 }
 
 TEST(Parameters, AMisspeltNameOrChoiceGetsTheNearestOne) {
@@ -80,9 +85,13 @@ TEST(Parameters, AMisspeltNameOrChoiceGetsTheNearestOne) {
     EXPECT_EQ(d.refusal("kernel-widht", "3"),
               "--kernel-widht: unknown parameter; did you mean kernel-width?");
     EXPECT_EQ(d.refusal("zebra", "3"), "--zebra: unknown parameter");
+    EXPECT_EQ(d.refusal("kernel", "3"), "--kernel: unknown parameter; did you mean kernel-width?");
     EXPECT_EQ(nearestName("courtyrad", {"contact", "courtyard", "room"}), "courtyard");
     EXPECT_EQ(nearestName("heck", {"contact", "heckbert_herf"}), "heckbert_herf");
     EXPECT_EQ(nearestName("xyz", {"contact", "courtyard", "room"}), "");
+    EXPECT_EQ(nearestName("rxxm", {"room"}), "") << "half of it is other letters";
+    EXPECT_EQ(nearestName("rm", {"room"}), "") << "half of it is missing";
+    EXPECT_EQ(nearestName("bat", {"cat", "hat"}), "cat") << "of equals the first";
 }
 
 TEST(Parameters, TheListSaysEverythingAndTheValuesAreCurrent) {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/app/command_line.h"
 #include "common/error.h"
 
 namespace penumbra {
@@ -21,6 +22,12 @@ Report example() {
     report.backend = "osmesa";
     report.api = "desktop";
     report.threads = 2;
+    report.antialias = 4;
+    report.camera = 1;
+    report.seed = 77;
+    report.skip = false;
+    report.still = true;
+    report.notes = {"no light: a sun was added"};
     report.parametersJson = R"({"kernel-width": 3, "bias": 0.1})";
     report.setupMs = 12.5;
     report.frameMs = statisticsOf({3.0, 1.0, 2.0});
@@ -47,6 +54,15 @@ TEST(Report, HoldsEveryKeyOfTheContract) {
     EXPECT_EQ(json["renderer"], "llvmpipe");
     EXPECT_EQ(json["backend"], "osmesa");
     EXPECT_EQ(json["threads"], 2);
+    EXPECT_EQ(json["version"], versionText);
+    EXPECT_EQ(json["api"], "desktop");
+    EXPECT_EQ(json["view"], "color");
+    EXPECT_EQ(json["antialias"], 4);
+    EXPECT_EQ(json["camera"], 1);
+    EXPECT_EQ(json["seed"], 77);
+    EXPECT_EQ(json["skip"], false);
+    EXPECT_EQ(json["still"], true);
+    EXPECT_EQ(json["notes"], Json::parse(R"(["no light: a sun was added"])"));
     EXPECT_EQ(json["parameters"], Json::parse(R"({"kernel-width": 3, "bias": 0.1})"));
     EXPECT_EQ(json["time"]["setup_ms"], 12.5);
     EXPECT_EQ(json["time"]["frame_ms"], Json::parse(R"({"median": 2.0, "min": 1.0, "max": 3.0, "runs": 3})"));
@@ -61,10 +77,11 @@ TEST(Report, AnErrorComesWithWhatItWasMeasuredAgainstAndWhatWasLeftOut) {
     Report report = example();
     report.passesMs["depth"] = statisticsOf({1.5});
     ErrorReport error;
-    error.view = "visibility";
+    error.view = "S";
     error.quantity = "visibility";
     error.truth = "closed form";
     error.against = "point light";
+    error.truthMs = 31.5;
     error.figures.pixels = 90;
     error.figures.excluded = 10;
     error.figures.rmse = 0.25;
@@ -79,6 +96,8 @@ TEST(Report, AnErrorComesWithWhatItWasMeasuredAgainstAndWhatWasLeftOut) {
     EXPECT_EQ(json["time"]["passes_ms"]["depth"]["median"], 1.5);
     const Json& e = json["error"];
     EXPECT_EQ(e["quantity"], "visibility");
+    EXPECT_EQ(e["view"], "S");
+    EXPECT_EQ(e["truth_ms"], 31.5);
     EXPECT_EQ(e["truth"], "closed form");
     EXPECT_EQ(e["against"], "point light");
     EXPECT_EQ(e["pixels"], 90);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,6 +33,7 @@ struct ProgramCall {
     std::filesystem::path standardOutput = {};  ///< empty: caught
     int signal = 0;                             ///< sent once `signalWhen` holds
     std::function<bool()> signalWhen = {};
+    rlim_t largestFile = RLIM_INFINITY;  ///< bytes; at the first beyond, it is killed
 };
 
 /// Replaces this (forked) process by the program, without a display.
@@ -45,6 +47,8 @@ struct ProgramCall {
     ::unsetenv("WAYLAND_DISPLAY");
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+    const rlimit fileSize{call.largestFile, call.largestFile};
+    ::setrlimit(RLIMIT_FSIZE, &fileSize);
     if (::chdir(call.folder.c_str()) == 0) ::execv(call.program.c_str(), arguments.data());
     ::_exit(127);
 }

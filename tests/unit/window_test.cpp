@@ -38,6 +38,8 @@ class PatternChapter : public Chapter {
     void declare(Parameters& parameters) override {
         parameters.add("stripes", stripes_, "draw stripes");
         parameters.add("count", count_, 1, 8, "", "how blue");
+        parameters.add("spare", spare_, 1, 8, "",
+                       "changes nothing: three are needed to tell Tab from Shift+Tab");
     }
     void load(const Scene&, const Context* context) override {
         if (!context) return;
@@ -66,7 +68,7 @@ class PatternChapter : public Chapter {
     }
 
     bool stripes_ = false;
-    int count_ = 3;
+    int count_ = 3, spare_ = 1;
     std::unique_ptr<Program> program_;
     std::unique_ptr<FullscreenTriangle> triangle_;
 };
@@ -145,10 +147,25 @@ TEST_F(WindowTest, AScreenshotAfterKeyPressesIsTheHeadlessPictureWithThoseParame
     EXPECT_GT(difference(picture, headless({})), 0.05) << "a change that does not show proves nothing";
     window->press("shift+Tab comma");
     EXPECT_LE(difference(screenshot(*window, 2), headless({"--count", "5"})), step);
+    window->press("Tab comma comma comma");
+    EXPECT_LE(difference(screenshot(*window, 3), headless({"--count", "2"})), step);
     expectQuit(*window);
 }
 
+TEST_F(WindowTest, HeadlessUsesNoDisplayEvenWhereThereIsOne) {
+    WindowSession process(screen_.display(), folder_.path(), [] {
+        const bool headless = createContext({.headless = true})->backend() != Backend::window;
+        return headless && createContext({.headless = false})->backend() == Backend::window ? 0 : 1;
+    });
+    EXPECT_EQ(process.status(), 0) << process.errors();
+}
+
 TEST_F(WindowTest, EsDrawsTheSame) {
+    WindowSession process(screen_.display(), folder_.path(), [] {
+        const auto context = createContext({.backend = Backend::window, .api = Api::es, .headless = false});
+        return context->version().rfind("OpenGL ES", 0) == 0 ? 0 : 1;
+    });
+    EXPECT_EQ(process.status(), 0) << process.errors();
     const auto window = open({"--api", "es"});
     window->press("period F1 F1");
     EXPECT_LE(difference(screenshot(*window, 1), headless({"--stripes"})), step);
@@ -186,13 +203,22 @@ TEST_F(WindowTest, ACpuChapterIsDrawnInFull) {
 TEST_F(WindowTest, TheCameraMovesAndComesHome) {
     const auto window = open();
     const FloatImage start = screenshot(*window, 1);
-    window->press("Right Up plus");
-    EXPECT_GT(difference(screenshot(*window, 2), start), step);
-    window->press("Home");
-    EXPECT_EQ(difference(screenshot(*window, 3), start), 0.0);
+    int taken = 1;
+    for (const auto& [key, back] : std::vector<std::pair<std::string, std::string>>{
+             {"Right", "Left"}, {"Up", "Down"}, {"plus", "minus"}}) {
+        for (const std::string& one : {key, back}) {
+            window->press(one);
+            EXPECT_GT(difference(screenshot(*window, ++taken), start), step) << one;
+            window->press("Home");
+            EXPECT_EQ(difference(screenshot(*window, ++taken), start), 0.0) << "Home after " << one;
+        }
+        window->press(key + " " + back);
+        EXPECT_LE(difference(screenshot(*window, ++taken), start), step) << back << " undoes " << key;
+        window->press("Home");
+    }
     window->xdotool(
         "mousemove 700 600 sleep 0.4 mousedown 1 sleep 0.4 mousemove 900 500 sleep 0.4 mouseup 1");
-    EXPECT_GT(difference(screenshot(*window, 4), start), step);
+    EXPECT_GT(difference(screenshot(*window, ++taken), start), step);
     expectQuit(*window);
 }
 
