@@ -52,6 +52,81 @@ class LintTest(TreeTest):
         self.assertIn("modernize-use-nullptr", self.complaint(), "a complaint is not remembered as a pass")
 
 
+    def testAStepThatComplainsFails(self):
+        with mock.patch.object(checks, "ROOT", self.root), mock.patch.object(build, "ROOT", self.root), \
+                mock.patch.object(build, "configure"), contextlib.redirect_stdout(io.StringIO()) as said:
+            self.assertEqual(checks.lint(), (1, 0))
+            self.write("common/a.h", "inline int* a() { return 0; }\n")
+            self.assertEqual(checks.lint(), (0, 1))
+        self.assertIn("modernize-use-nullptr", said.getvalue())
+
+
+class ProgramsTest(TreeTest):
+    """The steps that run programs, on programs that stand for ours."""
+
+    def outcome(self, step, *words):
+        with mock.patch.object(checks, "ROOT", self.root), mock.patch.object(build, "build"), \
+                mock.patch.object(build, "folder", lambda preset: self.root / preset), \
+                contextlib.redirect_stdout(io.StringIO()) as said, contextlib.redirect_stderr(said):
+            return step(*words), said.getvalue()
+
+    def testEveryTestIsCountedAndAFailureShown(self):
+        self.write("release/CTestTestfile.cmake", 'add_test(a true)\nadd_test(b true)\n')
+        self.assertEqual(self.outcome(checks.ctest, "release"), ((2, 0), ""))
+        self.write("release/CTestTestfile.cmake", 'add_test(a true)\nadd_test(b sh -c "echo the reason; exit 1")\n')
+        result, said = self.outcome(checks.ctest, "release")
+        self.assertEqual(result, (1, 1))
+        self.assertIn("the reason\nFAILED b\n", said)
+
+    def testNoTestsAtAllAreAFailure(self):
+        self.write("release/CTestTestfile.cmake", "add_test(a true)\n")
+        self.assertEqual(self.outcome(checks.ctest, "release")[0], (1, 0))
+        self.write("release/CTestTestfile.cmake", "")
+        try:
+            (_, failed), _ = self.outcome(checks.ctest, "release")
+        except build.BuildError:
+            failed = 1
+        self.assertEqual(failed, 1, "the results of an earlier run were counted")
+
+    def withoutOsmesa(self, backend, refusal):
+        self.write("no-osmesa/bin/02_shadow_test", f'''#!/usr/bin/env python3
+import json, sys
+if "--backend" in sys.argv:
+    sys.exit({refusal})
+open(sys.argv[sys.argv.index("--report") + 1], "w").write(json.dumps({{"backend": "{backend}"}}))
+''', executable=True)
+        return self.outcome(checks.withoutOsmesa)[0]
+
+    def testWithoutOsmesaEglIsChosenAndOsmesaRefused(self):
+        self.assertEqual(self.withoutOsmesa("egl", '"no OSMesa in this build"'), (2, 0))
+        self.assertEqual(self.withoutOsmesa("osmesa", '"no OSMesa in this build"'), (1, 1))
+        self.assertEqual(self.withoutOsmesa("egl", "0"), (1, 1))
+        self.assertEqual(self.withoutOsmesa("egl", '"two\\nlines"'), (1, 1))
+
+    def testAFuzzTargetThatFindsSomethingFails(self):
+        self.assertEqual(self.outcome(checks.fuzz, 1)[0], (0, 1), "no target is no pass")
+        self.write("tests/fuzz/x_fuzz.cpp", "")
+        self.write("fuzz/bin/fuzz_x", "#!/bin/sh\n", executable=True)
+        self.assertEqual(self.outcome(checks.fuzz, 1)[0], (1, 0))
+        self.write("fuzz/bin/fuzz_x", "#!/bin/sh\nexit 77\n", executable=True)
+        self.assertEqual(self.outcome(checks.fuzz, 1)[0], (0, 1))
+
+
+class ChoiceTest(unittest.TestCase):
+    def steps(self, *words):
+        return [name for name, _ in test_command.chosenSteps(test_command.parse(words))]
+
+    def testFlagsChooseTheSteps(self):
+        everything, fast = self.steps(), self.steps("--fast")
+        self.assertEqual(everything[:len(fast)], fast)
+        self.assertLess(len(fast), len(everything))
+        for step in ("lint", "sanitizers", "without OSMesa", "fuzzing"):
+            self.assertIn(step, everything)
+        self.assertEqual(self.steps("--sanitize"), ["sanitizers"])
+        self.assertEqual(self.steps("--fuzz", "0"), ["fuzzing"])
+        self.assertEqual(self.steps("03")[0], "tests of 03_polygon_offset")
+
+
 class TotalsTest(unittest.TestCase):
     def perform(self, *steps):
         with contextlib.redirect_stdout(io.StringIO()):

@@ -20,6 +20,8 @@ if "--help" in flags:
           "  depth                    the map\\n  error                    how far off\\n\\nExit status: 0")
     sys.exit()
 value = lambda name: flags[flags.index("--" + name) + 1]
+if value("view") == "error" and "--compare-truth" not in flags:
+    sys.exit("--view error: needs --compare-truth")
 if value("view") == "depth":
     print("no depth today", file=sys.stderr)
     sys.exit(1)
