@@ -1,0 +1,161 @@
+"""Breaks common/ on purpose, one break at a time, and demands that the unit test named with the break notices.
+
+As truth_mutations.py does for the exact answers, but these programs need the whole library: so only the broken file is
+compiled anew, as the build compiles it, and linked in front of the archives of a finished build. One alone:
+    python3 tests/mutation/framework_mutations.py FrameworkMutations.testPictureUpsideDown
+"""
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ.get("PENUMBRA_BUILD", ROOT / "build" / "release"))
+APP, GL, IMAGE, SCENE = "common/app/", "common/gl/", "common/image/", "common/scene/"
+
+# name: (file, unit program, the test of it that must fail, [(old, new), ...])
+MUTATIONS = {
+    # OpenGL
+    "LaterErrorsHideTheCause": (
+        GL + "gl_errors.cpp", "context", "*ReportsAnErrorOnce*", [(" || pendingMessage[0] != '\\0'", "")]),
+    "GivesUpAfterTheFirstBackend": (
+        GL + "context.cpp", "context", "*AutomaticGoesOnToEgl*",
+        [("reasons.push_back(error.what());", "reasons.push_back(error.what());\nbreak;")]),
+    "LinesAfterAnIncludeAreOneOff": (
+        GL + "shader_source.cpp", "program", "*NamesTheRightFileAndLine*", [("lineNumber + 1, number", "lineNumber, number")]),
+    "DefinesReachOneStage": (
+        GL + "program.cpp", "program", "*DefinesReachBothStages*",
+        [("loadShaderSource(vertexFile, defines,", "loadShaderSource(vertexFile, {},")]),
+    "UnsetUniformsAreDrawnWith": (
+        GL + "program_uniforms.cpp", "program", "*UniformMistakes*", [("if (!missing.empty())", "if (false)")]),
+    "SamplerObjectsStayBound": (
+        GL + "program_uniforms.cpp", "program", "*ASamplerObject*",
+        [("glBindSampler(GLuint", "if (binding.samplerObject != 0) glBindSampler(GLuint")]),
+    "AFailedReloadLosesTheProgram": (
+        GL + "program.cpp", "program", "*ReloadKeeps*",
+        [("deleteProgram(std::exchange(id_, state_->build()));", "deleteProgram(std::exchange(id_, 0)), id_ = state_->build();")]),
+    "PictureUpsideDown": (
+        GL + "render_target.cpp", "gpu_scene", "*ReadsTopRowFirst*", [("size.y - 1 - y", "y")]),
+    "OpenPartsAreCulled": (
+        SCENE + "gpu_scene.cpp", "gpu_scene", "*CullingClosedParts*", [("return part.closed;", "return true;")]),
+    "OneVertexForEveryNormalInTheDepthPass": (
+        SCENE + "gpu_scene.cpp", "gpu_scene", "*OnePositionAreOne*",
+        [("if (!indices.empty())", "indices = scene.indices;\nif (false)")]),
+    "TexturesAreNotDecoded": (
+        SCENE + "gpu_scene.cpp", "gpu_scene", "*AtVZeroAndDecoded*", [("GL_SRGB8_ALPHA8", "GL_RGBA8")]),
+    "DarkColoursAreEncodedLikeLightOnes": (
+        "shaders/common/present.frag", "present", "*ColoursAreToneMapped*", [("vec3(0.0031308)", "vec3(0.0)")]),
+    # scenes
+    "APartLeftOutTakesAClusterOfTheNext": (
+        SCENE + "culling.cpp", "culling", "*VisibleClusters*",
+        [("scene.clusters[i + 1].part == cluster.part", "scene.clusters[i].part == cluster.part")]),
+    "RowsOfPixelsRunUp": (SCENE + "camera.cpp", "camera", "*", [("1.0 - 2.0 * pixel.y", "2.0 * pixel.y - 1.0")]),
+    "SpotsAreDimmedLinearly": (SCENE + "light.cpp", "light", "*SpotCone*", [("ramp * ramp", "ramp")]),
+    "ShellsAddUpTheirVolumes": (
+        SCENE + "closed.cpp", "clusters", "Closed.*",
+        [("volume[rootOf(parent, t)]", "volume[0]"), ("parent[t] == t &&", "t == 0 &&")]),
+    "InterleavedAttributesAreReadAsPacked": (
+        SCENE + "gltf_accessor.cpp", "gltf_loader", "*Interleaved*", [("declared == 0 ? elementBytes : declared", "elementBytes")]),
+    "CountsOverflow": (
+        SCENE + "gltf_accessor.cpp", "gltf_hostile", "*CountsAndOffsets*",
+        [("count - 1 <= (room - elementBytes) / stride", "(count - 1) * stride <= room - elementBytes")]),
+    "MirrorsTurnSurfacesInsideOut": (
+        SCENE + "gltf_placement.cpp", "gltf_loader", "*Mirrored*", [("mirrored && t < mesh", "false && t < mesh")]),
+    "NodesAreReachedTwice": (
+        SCENE + "gltf_nodes.cpp", "gltf_hostile", "*CyclesAndShared*", [("if (reached[std::size_t(node.node)])", "if (placed.size() > 99)")]),
+    "FilesOutsideTheFolderAreRead": (
+        SCENE + "gltf_uri.cpp", "gltf_hostile", "*NothingOutside*", [('part == ".."', "part.empty()")]),
+    "EmittersLookBackwards": (
+        SCENE + "area_lights.cpp", "gltf_views", "*AFlatEmissiveMesh*", [("light.direction = *normal", "light.direction = -*normal")]),
+    # pictures
+    "NotANumberIsNoDifference": (
+        IMAGE + "compare.cpp", "compare", "*NotANumber*", [("std::isfinite(d) ? d : worstPossible", "std::isfinite(d) ? d : 0.0")]),
+    "AnImageTestWithoutABoundPasses": (
+        "tests/image/image_check.cpp", "image_check", "*MissingBounds*", [("if (verdicts.empty()) throw", "if (false) throw")]),
+    "FilesCarryTheTimeOfDay": (
+        IMAGE + "image_file.cpp", "image", "*TwoWrites*", [('spec.attribute("DateTime", "");', "")]),
+    "WritingReplacesALink": (
+        IMAGE + "file_write.cpp", "image", "*ALinkStaysALink*", [("return error ? file : target;", "return file;")]),
+    # command line, window, report
+    "NotANumberIsInEveryRange": (
+        APP + "parameters.cpp", "parameters", "*WhatIsNotAllowed*",
+        [("!(rounded >= float(p.low) && rounded <= float(p.high))", "rounded < float(p.low) || rounded > float(p.high)")]),
+    "AnySizeIsTaken": (
+        APP + "command_line.cpp", "command_line", "*SizesFromOnePixel*", [(" || size.x > largestSize || size.y > largestSize", "")]),
+    "EveryFailureIsStatusOne": (
+        APP + "chapter_runner.cpp", "cli", "*AWrongCommandLine*", [("error.what(), error.status()", "error.what(), exitFailed")]),
+    "HomeForgetsWhatItTurnsAbout": (APP + "orbit_camera.cpp", "orbit_camera", "*", [("target_ = startTarget_;", "")]),
+    "TheAreaLightsErrorIsTheFilters": (
+        APP + "report.cpp", "report", "*AreaLights*", [("toJson(*report.areaLightError)", "toJson(*report.error)")]),
+}
+
+
+def commandsOf(program):
+    """How the build makes a program: one command line for each step, linking last."""
+    if not (BUILD / "bin" / program).exists():
+        raise unittest.SkipTest(f"{BUILD} holds no {program}: build it first (./test does)")
+    return subprocess.run(["ninja", "-C", BUILD, "-t", "commands", program], capture_output=True, text=True,
+                          check=True).stdout.splitlines()
+
+
+def withOutput(words, output):
+    at = words.index("-o") + 1
+    return [*words[:at], str(output), *words[at + 1:]]
+
+
+class FrameworkMutations(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def compile(self, file, text, commands):
+        """The object of `file`, as if it contained `text`."""
+        source, made = self.folder / pathlib.Path(file).name, self.folder / "broken.o"
+        source.write_text(text)
+        line = next(command for command in commands if command.endswith(f"-c {ROOT / file}"))
+        words = withOutput(shlex.split(line), made)
+        words[words.index("-c") + 1] = str(source)
+        words[words.index("-MF") + 1] = str(self.folder / "broken.d")
+        subprocess.run([*words, "-O0", "-w"], cwd=BUILD, check=True, env={**os.environ, "CCACHE_DISABLE": "1"})
+        return made
+
+    def link(self, program, object_, commands):
+        """The program with `object_` in the place of what the archives have under the same names."""
+        words = next(part for part in commands[-1].split("&&") if " -o " in part)
+        binary = self.folder / program
+        words = withOutput(shlex.split(words), binary)
+        at = words.index("-o")
+        subprocess.run([*words[:at], object_, "-Wl,-z,muldefs", *words[at:]], cwd=BUILD, check=True)
+        return binary
+
+    def passes(self, binary, test, shaders=None):
+        environment = {**os.environ, **({"PENUMBRA_SHADERS": str(shaders)} if shaders else {})}
+        return subprocess.run([binary, f"--gtest_filter={test}", "--gtest_fail_fast"], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL, env=environment, timeout=120).returncode == 0
+
+    def check(self, name):
+        file, unit, test, replacements = MUTATIONS[name]
+        program, text = f"unit_{unit}", (ROOT / file).read_text()
+        commands = commandsOf(program)
+        self.assertTrue(self.passes(BUILD / "bin" / program, test), f"{program} fails without any mutation")
+        for old, new in replacements:
+            self.assertTrue(old in text, f"{name}: {file} no longer contains '{old}'; adapt the mutation")
+            text = text.replace(old, new)
+        if file.startswith("shaders/"):
+            shutil.copytree(ROOT / "shaders", self.folder / "shaders")
+            (self.folder / file).write_text(text)
+            noticed = not self.passes(BUILD / "bin" / program, test, self.folder / "shaders")
+        else:
+            noticed = not self.passes(self.link(program, self.compile(file, text, commands), commands), test)
+        self.assertTrue(noticed, f"{name}: {program} --gtest_filter={test} does not notice")
+
+
+for name_ in MUTATIONS:
+    setattr(FrameworkMutations, f"test{name_}", lambda self, name=name_: self.check(name))
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
