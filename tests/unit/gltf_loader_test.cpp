@@ -123,6 +123,38 @@ TEST(GltfGeometry, InterleavedAttributes) {
     }
 }
 
+TEST(GltfGeometry, WhatBelongsToACornerStaysWithIt) {
+    // A grid whose triangles come in no order, and some vertices that nobody uses: all are numbered anew.
+    constexpr int n = 16;
+    std::vector<float> positions, normals, uvs;
+    std::vector<std::uint16_t> indices;
+    for (int i = 0; i < (n + 1) * (n + 1); ++i) {
+        const float x = float(i % (n + 1)), y = float(i / (n + 1));
+        const glm::vec3 normal = glm::normalize(glm::vec3(x, y, 1));
+        positions.insert(positions.end(), {x, y, 0});
+        normals.insert(normals.end(), {normal.x, normal.y, normal.z});
+        uvs.insert(uvs.end(), {x, y});
+    }
+    for (int k = 0; k < n * n - 9; ++k) {
+        const int square = k * 101 % (n * n), a = square / n * (n + 1) + square % n;
+        for (const int corner : {a, a + 1, a + n + 2, a, a + n + 2, a + n + 1})
+            indices.push_back(std::uint16_t(corner));
+    }
+    GltfBuilder builder;
+    const Json attributes{{"POSITION", builder.addFloats(positions, "VEC3")},
+                          {"NORMAL", builder.addFloats(normals, "VEC3")},
+                          {"TEXCOORD_0", builder.addFloats(uvs, "VEC2")}};
+    const int accessor = builder.addIndices(indices);
+    builder.addNode({{"mesh", builder.addMesh({{"attributes", attributes}, {"indices", accessor}})}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.triangleCount(), indices.size() / 3);
+    for (std::size_t i = 0; i < scene.positions.size(); ++i) {
+        const glm::vec3 p(glm::dvec3(scene.positions[i]) + scene.origin);
+        EXPECT_EQ(scene.uvs[i], glm::vec2(p));
+        EXPECT_NEAR(glm::distance(scene.normals[i], glm::normalize(glm::vec3(p.x, p.y, 1))), 0.0f, 1e-6f);
+    }
+}
+
 TEST(GltfGeometry, SparseAccessorReplacesSomeElements) {
     GltfBuilder builder = squareScene();
     const int indices = builder.addView(std::vector<std::uint16_t>{1, 2});
@@ -337,12 +369,30 @@ TEST(GltfOrigin, AnOrdinarySceneKeepsTheNumbersOfItsFile) {
     EXPECT_EQ(load(squareScene()).origin, glm::dvec3(0.0));
 }
 
+TEST(GltfOrigin, TransformsAreAppliedInDouble) {
+    GltfBuilder builder = squareScene({{"scale", {0.1, 0.1, 0.1}}, {"translation", {-1000.03, 0, 0}}});
+    const float x = 10000.3f;
+    builder.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+        builder.addFloats({x, 0, 0, x + 1, 0, 0, x + 1, 1, 0, x, 1, 0}, "VEC3");
+    const Scene scene = load(builder);
+    EXPECT_NEAR(scene.bounds.lower.x + scene.origin.x, 0.1 * double(x) - 1000.03, 1e-8);
+}
+
+TEST(GltfOrigin, AHugeSceneIsFineNearItsCamera) {
+    GltfBuilder builder = squareScene({{"scale", {1e5, 1e5, 1e5}}});
+    builder.push("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}});
+    builder.addNode({{"camera", 0}, {"translation", {1001, 2002, 3003}}});
+    const glm::dvec3 camera = load(builder).cameras[0].position;
+    EXPECT_LE(std::max({std::abs(camera.x), std::abs(camera.y), std::abs(camera.z)}), 64.0);
+}
+
 TEST(GltfOrigin, ATinySceneFarAwayKeepsItsPrecision) {
     const GltfBuilder builder =
         squareScene({{"scale", {1e-4, 1e-4, 1e-4}}, {"translation", {123.456, 7.89, -55.5}}});
     const Scene scene = load(builder);
     EXPECT_LT(glm::length(scene.bounds.centre()), 1e-3);
     EXPECT_NEAR(scene.bounds.size().x, 1e-4, 1e-10);
+    EXPECT_NEAR(scene.bounds.lower.x + scene.origin.x, 123.456, 1e-10);
 }
 
 }  // namespace

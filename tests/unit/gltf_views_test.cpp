@@ -180,6 +180,16 @@ TEST(GltfLights, PunctualLights) {
     EXPECT_FALSE(hasNote(sun, "sun was added"));
 }
 
+TEST(GltfLights, ConesAreBroughtIntoOrderWithANote) {
+    for (const auto& [inner, outer] : {std::pair(0.5, 0.3), std::pair(0.3, 0.3), std::pair(2.0, -3.0)}) {
+        const Scene scene = load(
+            litSquare({{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}}));
+        EXPECT_GE(scene.lights[0].innerCone, 0.0);
+        EXPECT_LT(scene.lights[0].innerCone, scene.lights[0].outerCone);
+        EXPECT_TRUE(hasNote(scene, "cone angles brought into"));
+    }
+}
+
 TEST(GltfLights, ABlackLightIsLeftOutWithANote) {
     const Scene scene = load(litSquare({{"type", "point"}, {"name", "lamp"}, {"intensity", 0}}));
     EXPECT_TRUE(hasNote(scene, "light lamp is black"));

@@ -17,6 +17,7 @@
 #include "common/image/resample.h"
 #include "common/image/srgb.h"
 #include "common/image/tone_map.h"
+#include "tests/unit/png_chunk.h"
 #include "tests/unit/temporary_folder.h"
 
 namespace penumbra {
@@ -191,28 +192,11 @@ TEST(DecodeImage, ReadsJpegAndRefusesHalfOfOne) {
     EXPECT_THROW(decodeImage(data, 20, "jpeg"), Error);
 }
 
-/// CRC-32 as in the PNG specification, bit by bit.
-std::uint32_t checksum(const std::string& bytes) {
-    std::uint32_t c = ~0u;
-    for (const char byte : bytes) {
-        c ^= std::uint8_t(byte);
-        for (int k = 0; k < 8; ++k) c = c >> 1 ^ (c & 1 ? 0xedb88320u : 0u);
-    }
-    return ~c;
-}
-
-std::string bigEndian(std::uint32_t value) {
-    return {char(value >> 24), char(value >> 16), char(value >> 8), char(value)};
-}
-
 TEST(DecodeImage, OnlyWhatMakesThePictureReachesTheDecoder) {
-    const auto chunk = [](const std::string& name, const std::string& data) {
-        return bigEndian(std::uint32_t(data.size())) + name + data + bigEndian(checksum(name + data));
-    };
     std::string file = "\x89PNG\r\n\x1a\n", expected = file;
     for (const char* name :
          {"IHDR", "iCCP", "PLTE", "tRNS", "zTXt", "IDAT", "tEXt", "IDAT", "tIME", "IEND"}) {
-        const std::string made = chunk(name, std::string("data of ") + name);
+        const std::string made = pngChunk(name, std::string("data of ") + name);
         file += made;
         const bool needed = std::isupper(name[0]) || std::strcmp(name, "tRNS") == 0;  // upper case: critical
         if (needed) expected += made;
