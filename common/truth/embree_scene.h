@@ -60,7 +60,7 @@ class EmbreeScene {
     const Scene& scene_;
     RTCDeviceTy* device_ = nullptr;
     RTCSceneTy* embree_ = nullptr;
-    std::vector<float> heights_;  ///< smallest height of each triangle, metres
+    std::vector<float> heights_;  ///< decisiveHeight of each triangle
 };
 
 }  // namespace penumbra

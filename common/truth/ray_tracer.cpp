@@ -8,26 +8,16 @@
 
 #include "common/truth/embree_scene.h"
 #include "common/truth/exact_scene.h"
+#include "common/truth/shadow_packet.h"
 #include "common/truth/surface_hit.h"
 
 namespace penumbra {
 
-namespace {
-
-double largestCoordinate(const glm::dvec3& p) {
-    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
-}  // namespace
-
 struct RayTracer::State {
-    explicit State(const Scene& s) : scene(s) {
-        if (!s.bounds.empty())
-            reach = std::max(largestCoordinate(s.bounds.lower), largestCoordinate(s.bounds.upper));
-    }
+    explicit State(const Scene& s) : scene(s), reach(largestCoordinate(s.bounds)) {}
 
     const Scene& scene;
-    double reach = 0.0;  ///< largest coordinate of the scene, metres
+    const double reach;  ///< largest coordinate of the scene, metres
     std::once_flag embreeOnce, exactOnce;
     std::optional<EmbreeScene> embree;
     std::optional<ExactScene> exact;
@@ -53,7 +43,7 @@ bool RayTracer::State::occludedExactly(const ShadowRay& ray, int ignorePart, dou
     std::call_once(exactOnce, [this] { exact.emplace(scene); });
     glm::dvec3 target = ray.target;
     if (ray.towardsInfinity && part >= 1.0) {
-        const double beyond = 4.0 * (reach + largestCoordinate(ray.origin)) + 1.0;
+        const double beyond = 4.0 * (reach + glm::length(ray.origin)) + 1.0;
         target = ray.origin + beyond * glm::normalize(ray.target);
     } else if (part < 1.0) {
         target = ray.origin + part * (ray.towardsInfinity ? ray.target : ray.target - ray.origin);

@@ -1,6 +1,7 @@
 #include "common/truth/shadow_packet.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -41,13 +42,19 @@ void roundEnd(const ShadowRay& ray, unsigned i, ShadowPacket& packet, Rounded& r
     rounded.aims[i] = ray.towardsInfinity ? 0.0f : 1.0f;
 }
 
+/// Not 0 if they differ; without a branch.
+std::uint64_t difference(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b);
+}
+
 /// The rays from one point to the points of an area light: what belongs to the start is rounded once.
 bool startTogether(std::span<const ShadowRay> rays) {
     const ShadowRay& first = rays.front();
-    return first.triangle != ShadowRay::noTriangle &&
-           std::all_of(rays.begin() + 1, rays.end(), [&first](const ShadowRay& ray) {
-               return ray.triangle == first.triangle && ray.origin == first.origin;
-           });
+    std::uint64_t different = first.triangle == ShadowRay::noTriangle ? 1 : 0;
+    for (const ShadowRay& ray : rays.subspan(1))
+        different |= difference(ray.origin.x, first.origin.x) | difference(ray.origin.y, first.origin.y) |
+                     difference(ray.origin.z, first.origin.z) | (ray.triangle ^ first.triangle);
+    return different == 0;
 }
 
 /// All rays the start of the first; plain loops, which the compiler turns into a few wide stores.
@@ -79,7 +86,7 @@ void liftAndPullBack(float reach, ShadowPacket& p, const Rounded& rounded) {
         p.originY[i] += liftY - back * y;
         p.originZ[i] += liftZ - back * z;
         p.directionX[i] = x, p.directionY[i] = y, p.directionZ[i] = z;
-        p.tolerance[i] = 64.0f * ulp;
+        p.tolerance[i] = decisiveUlps * ulp;
         const float far = p.end[i] + 4.0f * back;
         p.far[i] = length > 0.0f ? far : -1.0f;
     }
@@ -87,22 +94,37 @@ void liftAndPullBack(float reach, ShadowPacket& p, const Rounded& rounded) {
 
 }  // namespace
 
+double largestCoordinate(const Aabb& bounds) {
+    if (bounds.empty()) return 0.0;
+    const glm::dvec3 size = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
+    return std::max({size.x, size.y, size.z});
+}
+
 void roundToFloat(std::span<const ShadowRay> rays, double reach, ShadowPacket& packet) {
     Rounded rounded;
-    const bool together = startTogether(rays);
-    if (together) {
+    packet.oneOrigin = startTogether(rays);
+    if (packet.oneOrigin) {
         roundStart(rays.front(), 0, packet, rounded);
         spreadStart(packet, rounded);
     }
     for (unsigned i = 0; i < lanes; ++i) {
         const ShadowRay& ray = rays[i < rays.size() ? i : 0];
-        if (!together) roundStart(ray, i, packet, rounded);
+        if (!packet.oneOrigin) roundStart(ray, i, packet, rounded);
         roundEnd(ray, i, packet, rounded);
     }
     liftAndPullBack(float(reach), packet, rounded);
     packet.nearOwnEdge = 0;
     for (unsigned i = 0; i < rays.size(); ++i)
         packet.nearOwnEdge |= std::uint32_t(rounded.edgeDistance[i] <= packet.tolerance[i]) << i;
+}
+
+float decisiveHeight(const std::array<glm::dvec3, 3>& t, double reach) {
+    const double longest =
+        std::max({glm::length(t[1] - t[0]), glm::length(t[2] - t[1]), glm::length(t[0] - t[2])});
+    if (!(longest > 0.0)) return 0.0f;
+    const double height = glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / longest;
+    constexpr double mostSlender = 4.0;
+    return longest * longest <= mostSlender * height * reach ? float(height) : 0.0f;
 }
 
 double ulpOf(const ShadowRay& ray, double reach) {

@@ -1,4 +1,4 @@
-"""Breaks the reference ray tracer on purpose, one break at a time, and demands that its unit test notices.
+"""Breaks the reference ray tracer on purpose, one break at a time, and demands that its unit tests notice.
 
 As truth_mutations.py does for the closed forms. One alone:
     python3 tests/mutation/ray_tracer_mutations.py RayTracerMutations.testOwnTriangleBlocks
@@ -15,7 +15,7 @@ FLAGS = ["-std=c++20", "-O1", "-ffp-contract=off", f'-DPENUMBRA_SOURCE_DIR="{ROO
 EMBREE = "-lembree4" if pathlib.Path("/usr/include/embree4").exists() else "-lembree3"
 LIBRARIES = ["-lgtest", "-lgtest_main", "-ltbb", "-lfmt", EMBREE, "-pthread"]
 TRUTH = "common/truth/"
-TESTS = {"ray_tracer": "tests/unit/ray_tracer_test.cpp"}
+TESTS = ["tests/unit/ray_tracer_test.cpp", "tests/unit/shadow_packet_test.cpp"]  # linked into one program
 SOURCES = ["common/math/polygon.cpp"] + [
     f"{TRUTH}{name}.cpp" for name in ("ray_tracer", "embree_scene", "shadow_packet", "surface_hit", "segment_test",
                                       "lambert_polygon", "light_pyramid", "cone_subtraction", "triangle_bvh",
@@ -26,7 +26,9 @@ MUTATIONS = {
     "OwnTriangleBlocks": (
         TRUTH + "embree_scene.cpp", [("candidate == query.packet->ownTriangle[id] || ", "")]),
     "FloatDecidesAlone": (TRUTH + "embree_scene.cpp", [("if (surelyBlocks(", "if (true || surelyBlocks(")]),
-    "FloatIsTooSure": (TRUTH + "shadow_packet.cpp", [("64.0f * ulp", "0.0f * ulp")]),
+    "FloatIsTooSure": (TRUTH + "shadow_packet.cpp", [("decisiveUlps * ulp", "0.0f * ulp")]),
+    "SlenderTrianglesAreTrusted": (TRUTH + "shadow_packet.cpp", [("mostSlender = 4.0", "mostSlender = 1e9")]),
+    "HalfAPacket": (TRUTH + "embree_scene.cpp", [("rays.id[i] = first + i", "rays.id[i] = i")]),
     "IgnoredPartIsSeen": (
         TRUTH + "embree_scene.h", [("return triangle >= begin && triangle < end;", "return triangle != triangle;")]),
     "TouchingIsBlocking": (TRUTH + "segment_test.cpp", [("if (start * end >= 0) return Crossing::none;", "")]),
@@ -49,7 +51,7 @@ class RayTracerMutations(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
         cls.objects = {}
-        for source in [TESTS["ray_tracer"], *SOURCES]:
+        for source in [*TESTS, *SOURCES]:
             cls.objects[source] = cls.folder / (pathlib.Path(source).name + ".o")
             compile_(ROOT / source, cls.objects[source])
 
@@ -72,10 +74,10 @@ class RayTracerMutations(unittest.TestCase):
         for source in [TRUTH + "embree_scene.cpp", TRUTH + "ray_tracer.cpp"] if file.endswith(".h") else [file]:
             objects[source] = broken / (pathlib.Path(source).name + ".o")
             compile_((broken if source == file else ROOT) / source, objects[source], broken)
-        self.assertFalse(self.passes(objects, broken / "test"), f"{name}: unit_ray_tracer does not notice")
+        self.assertFalse(self.passes(objects, broken / "test"), f"{name}: unit_ray_tracer and unit_shadow_packet do not notice")
 
     def testUnbroken(self):
-        self.assertTrue(self.passes(self.objects, self.folder / "test"), "unit_ray_tracer fails without any mutation")
+        self.assertTrue(self.passes(self.objects, self.folder / "test"), "the tests fail without any mutation")
 
 
 for name_ in MUTATIONS:
