@@ -23,17 +23,23 @@ vec3 shadedRadiance(vec3 pWorld, vec3 nWorld, vec2 uv, float S) {
 
 // [begin:shadow-kind]
 // Attached: the surface faces away and needs no map to know it. Cast: it faces the light, and something is in between.
-vec3 shadowKind(float facing, float S) {
+vec3 shadowKind(bool facing, float S) {
     const vec3 litColour = vec3(0.9), attachedColour = vec3(0.1, 0.2, 0.5), castColour = vec3(0.7, 0.15, 0.05);
-    if (facing <= 0.0) return attachedColour;
+    if (!facing) return attachedColour;
     return mix(castColour, litColour, S);
 }
 // [end:shadow-kind]
 
+// A sign needs no unit vectors.
+bool facesLight(vec3 pWorld, vec3 nWorld) {
+    return dot(gl_FrontFacing ? nWorld : -nWorld, towardsLight(pWorld)) > 0.0;
+}
+
 vec4 viewOf(vec3 pWorld, vec3 nWorld, vec2 uv, float S) {
+    bool facing = facesLight(pWorld, nWorld);
+    if (!facing) S = 0.0;
     vec3 radiance = shadedRadiance(pWorld, nWorld, uv, S);
-    float facing = dot(facingNormal(nWorld), directionToLight(pWorld));
-    if (uView == 1) return vec4(vec3(facing > 0.0 ? S : 0.0), 1.0);
+    if (uView == 1) return vec4(vec3(S), 1.0);
     if (uView == 2) return vec4(shadowKind(facing, S), 1.0);
     return vec4(radiance, 1.0);
 }

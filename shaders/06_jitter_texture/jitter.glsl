@@ -128,3 +128,21 @@ float litOfEight(Taps taps, int chunk) {
 }
 #endif
 // [end:layouts]
+
+// [begin:loop]
+// Tests chunks [first, end) of eight. A CPU rasteriser ends a loop where its condition leaves no pixel of a group, and asks at the
+// end of the body only: so it runs once at least, and a condition at its beginning would run it once too often. Pixels that want no
+// test look at one and the same texel then: it is the fetch of texels here and there that takes the time.
+float litOfChunks(Taps taps, int first, int end) {
+    bool wanted = first < end;
+    if (!wanted) {
+        taps.st = vec2(0.5);
+        taps.radius = vec2(0.0);
+    }
+    int chunk = wanted ? first : 0;
+    float lit = 0.0;
+    do lit += litOfEight(taps, chunk);
+    while (++chunk < end);
+    return wanted ? lit : 0.0;
+}
+// [end:loop]

@@ -11,9 +11,7 @@ out vec4 outColor;
 // [begin:jittered]
 float jitteredVisibility(Receiver receiver) {
     Taps taps = tapsOf(receiver, vec2(uRadius));
-    float lit = 0.0;
-    for (int chunk = 0; chunk < uSamples / 8; ++chunk) lit += litOfEight(taps, chunk);
-    return lit / float(uSamples);
+    return litOfChunks(taps, 0, uSamples / 8) / float(uSamples);
 }
 // [end:jittered]
 

@@ -35,13 +35,6 @@ bool outOfReach(Receiver receiver) {
 // [end:out-of-reach]
 
 // [begin:loop-or-if]
-// Tests chunks [first, end) of eight: a loop ends when no pixel of the group needs it.
-float litOfChunks(Taps taps, int first, int end) {
-    float sum = 0.0;
-    for (int chunk = first; chunk < end; ++chunk) sum += litOfEight(taps, chunk);
-    return sum;
-}
-
 #ifdef BRANCH_IF
 // The same written out. In an `if`, a CPU rasteriser runs all of it under a mask, needed or not.
 float chunk(Taps taps, int first, int index) {
@@ -129,13 +122,12 @@ float branchedVisibility(Receiver receiver, inout Work work) {
 #endif
 
 void main() {
-    vec3 toLight = directionToLight(pWorld);
     vec4 dx = dFdx(strq), dy = dFdy(strq);
     Receiver receiver;
     float S;
     bool onMap = receiverOnMap(strq, pWorld, dx, dy, receiver, S);
     Work work;
-    work.receives = onMap && dot(facingNormal(nWorld), toLight) > 0.0;
+    work.receives = onMap && facesLight(pWorld, nWorld);
     work.looked = work.receives && !outOfReach(receiver);
     work.searched = false;
 #ifdef CLASSIFY_NONE

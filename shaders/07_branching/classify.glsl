@@ -35,9 +35,12 @@ float classify(Taps taps) {
     vec4 nearest = nearestAround(taps.st);
     float z = uFarther * (taps.z - taps.bias);
     vec2 slope = uFarther * taps.slope;
-    if (surelyLit(taps, z, slope, nearest.x, uSlope0) || surelyLit(taps, z, slope, nearest.y, uSlope1) ||
-        surelyLit(taps, z, slope, nearest.z, uSlope2))
-        return lit;
+    // Of the three planes the one most like the receiver's.
+    vec2 off0 = slope - uSlope0, off1 = slope - uSlope1, off2 = slope - uSlope2;
+    float square0 = dot(off0, off0), square1 = dot(off1, off1), square2 = dot(off2, off2);
+    bool first = square0 <= min(square1, square2), second = square1 <= square2;
+    float above = first ? nearest.x : second ? nearest.y : nearest.z;
+    if (surelyLit(taps, z, slope, above, first ? uSlope0 : second ? uSlope1 : uSlope2)) return lit;
     float rounding = roundOff * (3.0 + 2.0 * (abs(slope.x) + abs(slope.y)));
     return z - length(taps.radius * slope) - rounding > -nearest.w ? dark : mixed;
 }

@@ -10,8 +10,9 @@ layout(location = 0) out ivec4 outBits;
 void main() {
     ivec2 first = ivec2(gl_FragCoord.xy) - uBefore * uDirection, last = textureSize(uBlocks, 0) - 1;
     ivec4 nearest = ivec4(0x7fffffff);
-    for (int i = 0; i < uCount; ++i)
-        nearest = min(nearest, texelFetch(uBlocks, clamp(first + i * uDirection, ivec2(0), last), 0));
+    int i = 0;  // at the end of the body, as in chapter 06
+    do nearest = min(nearest, texelFetch(uBlocks, clamp(first + i * uDirection, ivec2(0), last), 0));
+    while (++i < uCount);
     outBits = nearest;
 }
 // [end:dilate]

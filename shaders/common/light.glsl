@@ -12,6 +12,11 @@ uniform vec3 uLightDirection;  // unit, the way the light travels
 uniform vec3 uLightEmission;   // point, spot: W/sr; directional: W/m^2; area: radiance times area, W/sr
 uniform vec2 uLightCosines;    // spot: cosines of the inner and the outer half angle
 
+// Of any length.
+vec3 towardsLight(vec3 x) {
+    return uLightType == lightDirectional ? -uLightDirection : uLightPosition - x;
+}
+
 vec3 directionToLight(vec3 x) {
     return uLightType == lightDirectional ? -uLightDirection : normalize(uLightPosition - x);
 }

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 
 #include "common/app/report.h"
 #include "tests/image/chapter_harness.h"
@@ -24,25 +25,32 @@ namespace {
 
 constexpr glm::ivec2 pictureSize(512, 512);
 
-double milliseconds(ChapterHarness& harness) {
-    const auto start = std::chrono::steady_clock::now();
-    harness.render("visibility", pictureSize);
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+/// Milliseconds, of all threads together.
+double cpuTime() {
+    return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
+}
+double wallTime() {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
 struct Way {
     std::string name;
     std::unique_ptr<ChapterHarness> harness;
-    std::vector<double> times{};
+    std::vector<double> times{}, cpuTimes{};
     double median() const { return statisticsOf(times).median; }
+    double cpuMedian() const { return statisticsOf(cpuTimes).median; }
 };
 
 /// Draws once to warm up, then `rounds` times, in turns.
 void measure(std::vector<Way>& ways, int rounds) {
     for (int round = -1; round < rounds; ++round)
         for (Way& way : ways) {
-            const double time = milliseconds(*way.harness);
-            if (round >= 0) way.times.push_back(time);
+            const double wall = wallTime(), cpu = cpuTime();
+            way.harness->render("visibility", pictureSize);
+            if (round < 0) continue;
+            way.times.push_back(wallTime() - wall);
+            way.cpuTimes.push_back(cpuTime() - cpu);
         }
 }
 
@@ -78,24 +86,53 @@ double penumbraShare(ChapterHarness& harness) {
            double(visibility.values.size());
 }
 
+Settings with(Settings settings, const Settings& more) {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+}
+
 void layouts(int rounds) {
-    const Scene scene = edges(4);
-    const Settings rotation{{"method", "rotation"}};
+    const Scene scene = edges(1);
+    const Settings kinds[] = {{{"layout", "lecture"}},
+                              {{"layout", "snorm8"}},
+                              {{"layout", "packed16"}},
+                              {{"layout", "packed8"}},
+                              {{"method", "rotation"}}};
     std::vector<Way> ways;
-    for (const char* layout : {"lecture", "snorm8", "packed16", "packed8"})
-        ways.push_back(way<JitterTextureChapter>(layout, scene, {{"layout", layout}}));
-    ways.push_back(way<JitterTextureChapter>("rotation", scene, rotation));
+    for (const Settings& kind : kinds) {
+        const Settings settings = with({{"radius", "25.6"}}, kind);
+        ways.push_back(way<JitterTextureChapter>(kind[0].second, scene, settings));
+        ways.push_back(way<Branching>(kind[0].second, scene, settings));
+    }
     measure(ways, rounds);
-    fmt::print("06: look-ups of 64 samples, {}x{}\n", pictureSize.x, pictureSize.y);
-    for (const Way& w : ways)
-        fmt::print("  {:10} {:7.2f} ms  {:4.0f} % of the lecture's\n", w.name, w.median(),
-                   100.0 * w.median() / ways[0].median());
+    fmt::print(
+        "64 samples, {}x{}, {:.1f} % penumbra; ms       06  of the lecture's    07  06/07  the lecture's "
+        "06/07\n",
+        pictureSize.x, pictureSize.y, 100.0 * penumbraShare(*ways[0].harness));
+    for (std::size_t i = 0; i < ways.size(); i += 2) {
+        const double lecture = ways[0].median(), full = ways[i].median(), branched = ways[i + 1].median();
+        fmt::print("  {:40} {:7.2f} {:14.0f} % {:7.2f} {:6.2f} {:20.2f}\n", ways[i].name, full,
+                   100.0 * full / lecture, branched, full / branched, lecture / branched);
+    }
+}
+
+void printShares(const char* radius, std::vector<Way>& ways) {
+    const Way &full = ways[0], &branched = ways[1];
+    const double f = penumbraShare(*full.harness);
+    const double supersampled =
+        double(ways[1].harness->work["pixels_supersampled"]) / (pictureSize.x * pictureSize.y);
+    const double model = ways.back().median() + f * full.median();
+    fmt::print("{:6.1f}% {:>6} |", 100.0 * f, radius);
+    for (const Way& way : ways) fmt::print(" {:6.2f}", way.median());
+    fmt::print(" | {:5.2f} {:5.2f} {:13.2f} {:12.1f}%\n", full.median() / branched.median(),
+               full.cpuMedian() / branched.cpuMedian(), branched.median() / model, 100.0 * supersampled);
 }
 
 void shares(int rounds) {
-    fmt::print("07: 64 samples, f: share of the picture in penumbra\n");
     fmt::print(
-        "      f radius |     06   none  min-max  min-max/if  probe | 06/07  of the model  supersampled\n");
+        "07: 64 samples, f: share of the picture in penumbra; ms, class: the classification alone\n"
+        "      f radius |     06     07     if  probe   none  class | 06/07   CPU  of the model  "
+        "supersampled\n");
     struct Case {
         int edges;
         const char* radius;
@@ -103,26 +140,15 @@ void shares(int rounds) {
     for (const Case& c : {Case{1, "10"}, {1, "25.6"}, {2, "25.6"}, {4, "25.6"}, {8, "25.6"}, {16, "48"}}) {
         const Scene scene = edges(c.edges), empty = edges(0);
         const Settings radius{{"radius", c.radius}};
-        const auto with = [&](Settings more) {
-            more.insert(more.end(), radius.begin(), radius.end());
-            return more;
-        };
         std::vector<Way> ways;
         ways.push_back(way<JitterTextureChapter>("06", scene, radius));
-        ways.push_back(way<Branching>("none", scene, with({{"classify", "none"}})));
-        ways.push_back(way<Branching>("min-max", scene, radius));
-        ways.push_back(way<Branching>("if", scene, with({{"branch", "if"}})));
-        ways.push_back(way<Branching>("probe", scene, with({{"classify", "probe"}})));
+        ways.push_back(way<Branching>("07", scene, radius));
+        ways.push_back(way<Branching>("if", scene, with({{"branch", "if"}}, radius)));
+        ways.push_back(way<Branching>("probe", scene, with({{"classify", "probe"}}, radius)));
+        ways.push_back(way<Branching>("none", scene, with({{"classify", "none"}}, radius)));
         ways.push_back(way<Branching>("classification alone", empty, radius));
         measure(ways, rounds);
-        const double f = penumbraShare(*ways[0].harness);
-        const double full = ways[0].median(), classification = ways[5].median();
-        const double supersampled =
-            double(ways[2].harness->work["pixels_supersampled"]) / (pictureSize.x * pictureSize.y);
-        fmt::print("{:6.1f}% {:>6} | {:6.2f} {:6.2f} {:8.2f} {:11.2f} {:6.2f} | {:5.2f} {:13.2f} {:12.1f}%\n",
-                   100.0 * f, c.radius, full, ways[1].median(), ways[2].median(), ways[3].median(),
-                   ways[4].median(), full / ways[2].median(), ways[2].median() / (classification + f * full),
-                   100.0 * supersampled);
+        printShares(c.radius, ways);
     }
 }
 

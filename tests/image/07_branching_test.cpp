@@ -149,8 +149,8 @@ TEST(Chapter07, ABrokenShaderIsCaught) {
     const Mutation mutations[] = {
         {"one block short", dilate, "i < uCount", "i < uCount - 1"},
         {"one texel short", classify, "- uReach);", "- uReach + 1.0);"},
-        {"back faces only", branching, "dot(facingNormal(nWorld), toLight) > 0.0",
-         "dot(facingNormal(nWorld), toLight) < 0.0"},
+        {"back faces only", branching, "onMap && facesLight(pWorld, nWorld)",
+         "onMap && !facesLight(pWorld, nWorld)"},
         {"farthest taken for nearest", blocks, "smallest(-depth)", "-smallest(depth)"},
         {"no allowance for the slope", classify, "z - length(taps.radius * slope) - rounding",
          "z + length(slope)"},
