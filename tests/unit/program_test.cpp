@@ -225,7 +225,10 @@ TEST_P(ProgramTest, TexturesOfOneProgramGetUnitsOfTheirOwn) {
     EXPECT_EQ(draw(program).x, 21.0f);
     program.setTexture("uA", GL_TEXTURE_2D, b.colorTexture());
     EXPECT_EQ(draw(program).x, 22.0f);
-    program.prepareToDraw();
+    Program other("full.vert", "t.frag");
+    other.setTexture("uA", GL_TEXTURE_2D, a.colorTexture());
+    other.setTexture("uB", GL_TEXTURE_2D, b.colorTexture());
+    other.prepareToDraw();
     GLint active = 0;
     glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
     EXPECT_EQ(active, GL_TEXTURE0) << "the caller's next glBindTexture must not take a unit of the program";

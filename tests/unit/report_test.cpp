@@ -16,7 +16,7 @@ Report example() {
     Report report;
     report.chapter = "04_pcf";
     report.scene = "heckbert_herf";
-    report.view = "color";
+    report.view = "irradiance";
     report.size = {640, 480};
     report.renderer = "llvmpipe";
     report.backend = "osmesa";
@@ -56,7 +56,7 @@ TEST(Report, HoldsEveryKeyOfTheContract) {
     EXPECT_EQ(json["threads"], 2);
     EXPECT_EQ(json["version"], versionText);
     EXPECT_EQ(json["api"], "desktop");
-    EXPECT_EQ(json["view"], "color");
+    EXPECT_EQ(json["view"], "irradiance");
     EXPECT_EQ(json["antialias"], 4);
     EXPECT_EQ(json["camera"], 1);
     EXPECT_EQ(json["seed"], 77);

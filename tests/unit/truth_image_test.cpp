@@ -189,6 +189,13 @@ TEST_F(TruthImages, AreFoundAgainAndADamagedFileIsComputedAgain) {
     const std::filesystem::path file = *std::filesystem::directory_iterator(folder_.path());
     const std::string stored = bytesOf(file);
     EXPECT_EQ(compute().value, first.value);
+    const Light& light = scene.lights[0];
+    EXPECT_EQ(visibilityTruth(scene, tracer, fromAbove(), light, {16, 16}, true).against, "point light");
+    EXPECT_EQ(visibilityTruth(scene, tracer, fromAbove(), light, {16, 8}, false).value.height, 8);
+    EXPECT_EQ(
+        irradianceTruth(scene, tracer, fromAbove(), std::span(&light, 1), {16, 16}, false).value.channels, 3);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        if (entry.path() != file) std::filesystem::remove(entry.path());
 
     // One flipped bit in the middle, and a file cut short: found out, computed, written again.
     std::string flipped = stored;
