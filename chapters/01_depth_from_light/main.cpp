@@ -4,8 +4,7 @@
 // of what is nearest: the shadow map (Williams 1978). Nothing is in shadow yet; this chapter is about the
 // depths being right.
 #include "chapters/01_depth_from_light/depth_truth.h"
-#include "chapters/01_depth_from_light/depth_view.h"
-#include "chapters/01_depth_from_light/shadow_options.h"
+#include "chapters/01_depth_from_light/light_pass.h"
 #include "common/app/pass_timer.h"
 #include "common/error.h"
 
@@ -15,32 +14,27 @@ namespace {
 
 class DepthFromLight : public Chapter {
  public:
-    void declare(Parameters& parameters) override { options_.declare(parameters); }
+    void declare(Parameters& parameters) override { pass_.options.declare(parameters); }
 
     void load(const Scene&, const Context*) override {
-        depth_.emplace("01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag");
+        pass_.load();
         lit_.emplace("01_depth_from_light/lit.vert", "01_depth_from_light/lit.frag");
-        depthView_.emplace();
-        map_.reset();
     }
 
     void render(const Frame& frame) override {
         // [begin:passes]
         // Pass 1: the scene from the light, depth alone.
-        ShadowMap& map = options_.provide(map_, frame.context->capabilities());
-        const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum& frustum = options_.frustum(frame, map);
-        map.render(*depth_, frame, light, frustum);
+        const LightSight sight = pass_.render(frame);
 
         // Pass 2: the picture. Without shadows, from the camera or from the light, or the map itself.
         const PassScope scope(frame.passTimer, "shading");
-        clearPicture(frame, options_);
+        clearPicture(frame, pass_.options);
         if (frame.view == "color")
             drawFromCamera(frame);
         else if (frame.view == "light-view")
-            drawFromLight(frame, frustum);
+            drawFromLight(frame, sight.frustum);
         else
-            depthView_->draw(frame, map, frustum, frame.view == "linear-depth");
+            pass_.show(frame, sight, frame.view == "linear-depth");
         // [end:passes]
     }
 
@@ -48,19 +42,20 @@ class DepthFromLight : public Chapter {
         if (request.view != "depth" && request.view != "linear-depth")
             throw UsageError(
                 "--compare-truth: chapter 01 has an exact answer for --view depth and linear-depth");
-        const DepthFormat format = depthFormat(options_.depthFormat, request.context->capabilities());
-        const Light& light = options_.chosenLight(request.scene);
-        const LightFrustum& frustum = options_.frustum(request.scene, request.camera, request.size, format);
-        return depthTruth(request.tracer, frustum, request.size, options_.mapSize, format, light.part,
+        const DepthFormat format = depthFormat(pass_.options.depthFormat, request.context->capabilities());
+        const Light& light = pass_.options.chosenLight(request.scene);
+        const LightFrustum& frustum =
+            pass_.options.frustum(request.scene, request.camera, request.size, format);
+        return depthTruth(request.tracer, frustum, request.size, pass_.options.mapSize, format, light.part,
                           request.view == "linear-depth", request.progress);
     }
 
-    std::vector<Program*> programs() override { return {&*depth_, &*lit_, &depthView_->program()}; }
+    std::vector<Program*> programs() override { return pass_.programs({&*lit_}); }
 
  private:
     void drawFromCamera(const Frame& frame) {
         glEnable(GL_DEPTH_TEST);
-        setCameraAndLight(*lit_, frame, options_);
+        setCameraAndLight(*lit_, frame, pass_.options);
         drawPicture(*lit_, frame);
     }
 
@@ -70,16 +65,14 @@ class DepthFromLight : public Chapter {
         const int side = std::min(frame.size.x, frame.size.y);
         glViewport((frame.size.x - side) / 2, (frame.size.y - side) / 2, side, side);
         glEnable(GL_DEPTH_TEST);
-        setCameraAndLight(*lit_, frame, options_);
+        setCameraAndLight(*lit_, frame, pass_.options);
         lit_->set("uClipFromWorld", glm::mat4(frustum.clipFromWorld()));
         frame.gpu->drawShaded(*lit_, visibleClusters(frame.scene, Frustum(frustum.clipFromWorld())));
         glViewport(0, 0, frame.size.x, frame.size.y);
     }
 
-    ShadowOptions options_;
-    std::optional<Program> depth_, lit_;
-    std::optional<DepthView> depthView_;
-    std::optional<ShadowMap> map_;
+    LightPass pass_;
+    std::optional<Program> lit_;
 };
 
 }  // namespace

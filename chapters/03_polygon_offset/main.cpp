@@ -4,7 +4,6 @@
 // differ, and the surface shadows itself. A bias hides the difference, and too much of it lets light leak
 // under walls. How much is needed can be derived from the slope, the format and the arithmetic; `--method`
 // compares that bound with the remedies in use.
-#include "chapters/01_depth_from_light/depth_view.h"
 #include "chapters/02_shadow_test/shadow_test.h"
 #include "chapters/03_polygon_offset/depth_bias.h"
 #include "common/app/pass_timer.h"
@@ -19,7 +18,7 @@ namespace {
 class PolygonOffset : public Chapter {
  public:
     void declare(Parameters& parameters) override {
-        options_.declare(parameters);
+        pass_.options.declare(parameters);
         declareOutside(parameters, outside_);
         parameters.add("method", method_, biasMethodNames(), "remedy for acne; slope is the derived bound");
         parameters.add("bias", bias_, 0.0f, 32.0f, "",
@@ -27,11 +26,9 @@ class PolygonOffset : public Chapter {
     }
 
     void load(const Scene&, const Context*) override {
-        depth_.emplace("01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag");
+        pass_.load();
         peel_.emplace("01_depth_from_light/depth.vert", "03_polygon_offset/peel.frag");
         biased_.clear();
-        depthView_.emplace();
-        map_.reset();
         secondLayer_.reset();
     }
 
@@ -39,53 +36,50 @@ class PolygonOffset : public Chapter {
         // [begin:passes]
         // Pass 1: the scene from the light (chapter 01), drawn as the method wants it.
         const BiasMethod method = biasMethod(method_);
-        ShadowMap& map = options_.provide(map_, frame.context->capabilities());
-        const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum& frustum = options_.frustum(frame, map);
-        const DepthErrors errors = bothPassesErrors(map, frustum, frame.scene.bounds);
-        const CasterDraw draw = casterDraw(method, map, frustum, errors, bias_);
-        map.render(*depth_, frame, light, frustum, draw);
+        const LightSight sight = pass_.fit(frame);
+        const DepthErrors errors = bothPassesErrors(sight.map, sight.frustum, frame.scene.bounds);
+        const CasterDraw draw = casterDraw(method, sight.map, sight.frustum, errors, bias_);
+        pass_.draw(frame, sight, draw);
 
         // Pass 1b, midpoint only: what lies behind the nearest surface.
         const ShadowMap& second =
-            method == BiasMethod::midpoint ? peel(frame, map, light, frustum, errors, draw) : map;
+            method == BiasMethod::midpoint ? peel(frame, sight, errors, draw) : sight.map;
 
         // Pass 2: the picture, compared with a bias.
         const PassScope scope(frame.passTimer, "shading");
-        clearPicture(frame, options_);
-        if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
+        if (frame.view == "depth") return pass_.show(frame, sight);
+        clearPicture(frame, pass_.options);
         glEnable(GL_DEPTH_TEST);
         Program& biased = program(method);
-        setCameraAndLight(biased, frame, options_);
-        setShadowMap(biased, map, frustum, light, outside_);
-        setBias(biased, errors, second, frustum);
-        biased.set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
+        setPicture(biased, frame, pass_.options, sight, outside_);
+        setBias(biased, errors, second, sight.frustum);
+        biased.set("uView", viewNumber(frame.view));
         drawPicture(biased, frame);
         // [end:passes]
     }
 
     TruthImage truth(const TruthRequest& request) override {
-        if (request.view != "visibility")
-            throw UsageError("--compare-truth: chapter 03 has an exact answer for --view visibility");
+        requireVisibility(request, "03");
         return visibilityTruth(request.scene, request.tracer, request.camera,
-                               options_.chosenLight(request.scene), request.size, true, request.progress);
+                               pass_.options.chosenLight(request.scene), request.size, true,
+                               request.progress);
     }
 
     std::vector<Program*> programs() override {
-        std::vector<Program*> all{&*depth_, &*peel_, &depthView_->program()};
+        std::vector<Program*> all{&*peel_};
         for (auto& [method, program] : biased_) all.push_back(&program);
-        return all;
+        return pass_.programs(std::move(all));
     }
 
  private:
     // [begin:peel]
-    const ShadowMap& peel(const Frame& frame, const ShadowMap& first, const Light& light,
-                          const LightFrustum& frustum, const DepthErrors& errors, const CasterDraw& draw) {
-        ShadowMap& second = options_.provide(secondLayer_, frame.context->capabilities());
-        peel_->setTexture("uFirstLayer", GL_TEXTURE_2D, first.texture());
-        peel_->set("uFarther", frustum.range == DepthRange::reversed ? -1.0f : 1.0f);
+    const ShadowMap& peel(const Frame& frame, const LightSight& first, const DepthErrors& errors,
+                          const CasterDraw& draw) {
+        ShadowMap& second = pass_.options.provide(secondLayer_, frame.context->capabilities());
+        peel_->setTexture("uFirstLayer", GL_TEXTURE_2D, first.map.texture());
+        peel_->set("uFarther", first.frustum.range == DepthRange::reversed ? -1.0f : 1.0f);
         peel_->set("uQuantum", errors.quantum);
-        second.render(*peel_, frame, light, frustum, draw);
+        second.render(*peel_, frame, first.light, first.frustum, draw);
         return second;
     }
     // [end:peel]
@@ -107,24 +101,19 @@ class PolygonOffset : public Chapter {
         setDepthErrors(biased, errors, frustum);
     }
 
-    ShadowOptions options_;
+    LightPass pass_;
     std::string outside_ = "lit", method_ = "slope";
     float bias_ = 1.0f;
-    std::optional<Program> depth_, peel_;
+    std::optional<Program> peel_;
     std::map<BiasMethod, Program> biased_;  ///< one for each method in use
-    std::optional<DepthView> depthView_;
-    std::optional<ShadowMap> map_, secondLayer_;
+    std::optional<ShadowMap> secondLayer_;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const ChapterInfo info{
-        "03_polygon_offset",
-        "bias against acne, leaks against bias: a bound derived, not tuned",
-        {{"color", "Blinn-Phong with S(x)"},
-         {"visibility", "S(x): 1 where the light sees the point", true, false},
-         {"shadow-kind", "lit white, attached shadow blue, cast shadow red", false, false, 0.0},
-         {"depth", "the shadow map", true, false}}};
+    const ChapterInfo info{"03_polygon_offset",
+                           "bias against acne, leaks against bias: a bound derived, not tuned",
+                           shadowViews("S(x)", "S(x): 1 where the light sees the point")};
     return runChapter<PolygonOffset>(info, argc, argv);
 }

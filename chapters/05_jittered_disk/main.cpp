@@ -3,7 +3,6 @@
 // A square of 15 x 15 texels takes 225 tests, and its shadows have corners. N tests spread over a disk of any
 // radius do: how well depends on the pattern. It is the same for every pixel here, so what it misses shows as
 // bands; chapter 06 turns the bands into noise.
-#include "chapters/01_depth_from_light/depth_view.h"
 #include "chapters/02_shadow_test/shadow_test.h"
 #include "chapters/04_pcf/filter_truth.h"
 #include "chapters/04_pcf/receiver_bias.h"
@@ -19,8 +18,8 @@ namespace {
 class JitteredDisk : public Chapter {
  public:
     void declare(Parameters& parameters) override {
-        options_.fit = "view";  // a kernel is so many texels wide: texels as fine as can be
-        options_.declare(parameters);
+        pass_.options.fit = "view";  // a kernel is so many texels wide: texels as fine as can be
+        pass_.options.declare(parameters);
         declareOutside(parameters, outside_);
         parameters.add("radius", radius_, 0.0f, 64.0f, "texels",
                        "of the disk; 0: the staircase of one test, 64: soft, and contacts are blurred");
@@ -32,46 +31,40 @@ class JitteredDisk : public Chapter {
     }
 
     void load(const Scene&, const Context*) override {
-        depth_.emplace("01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag");
+        pass_.load();
         filtered_.emplace("02_shadow_test/shadowed.vert", "05_jittered_disk/filtered.frag");
-        depthView_.emplace();
-        map_.reset();
     }
 
     void render(const Frame& frame) override {
         // [begin:passes]
         // Pass 1: the scene from the light (chapter 01).
-        ShadowMap& map = options_.provide(map_, frame.context->capabilities());
-        const Light& light = options_.chosenLight(frame.scene);
-        const LightFrustum& frustum = options_.frustum(frame, map);
-        map.render(*depth_, frame, light, frustum);
+        const LightSight sight = pass_.render(frame);
 
         // Pass 2: the picture, every fragment tested N times.
         const PassScope scope(frame.passTimer, "shading");
-        clearPicture(frame, options_);
-        if (frame.view == "depth") return depthView_->draw(frame, map, frustum, false);
+        if (frame.view == "depth") return pass_.show(frame, sight);
+        clearPicture(frame, pass_.options);
         glEnable(GL_DEPTH_TEST);
-        setCameraAndLight(*filtered_, frame, options_);
-        setShadowMap(*filtered_, map, frustum, light, outside_);
-        bias_.set(*filtered_, map, frustum, frame.scene);
+        setPicture(*filtered_, frame, pass_.options, sight, outside_);
+        bias_.set(*filtered_, sight.map, sight.frustum, frame.scene);
         setPattern(frame.seed);
-        filtered_->set("uView", frame.view == "visibility" ? 1 : frame.view == "shadow-kind" ? 2 : 0);
+        filtered_->set("uView", viewNumber(frame.view));
         drawPicture(*filtered_, frame);
         // [end:passes]
         frame.work["tests_per_pixel"] = samples_;
     }
 
     TruthImage truth(const TruthRequest& request) override {
-        if (request.view != "visibility")
-            throw UsageError("--compare-truth: chapter 05 has an exact answer for --view visibility");
-        return filterTruth(request, options_, {FilterKernel::Shape::disk, radius_, options_.mapSize});
+        requireVisibility(request, "05");
+        return filterTruth(request, pass_.options,
+                           {FilterKernel::Shape::disk, radius_, pass_.options.mapSize});
     }
 
     std::optional<TruthImage> areaLightTruth(const TruthRequest& request) override {
-        return penumbra::areaLightTruth(request, options_);
+        return penumbra::areaLightTruth(request, pass_.options);
     }
 
-    std::vector<Program*> programs() override { return {&*depth_, &*filtered_, &depthView_->program()}; }
+    std::vector<Program*> programs() override { return pass_.programs({&*filtered_}); }
 
  private:
     // [begin:pattern]
@@ -84,27 +77,21 @@ class JitteredDisk : public Chapter {
     }
     // [end:pattern]
 
-    ShadowOptions options_;
+    LightPass pass_;
     std::string outside_ = "lit", pattern_ = "jittered", diskMap_ = "concentric";
     int samples_ = 16;
     float radius_ = 8.0f;
     ReceiverBias bias_{.receiverPlane = true};
     std::vector<glm::dvec2> points_;  // that uploaded_ holds
-    std::optional<Program> depth_, filtered_;
-    std::optional<DepthView> depthView_;
+    std::optional<Program> filtered_;
     std::optional<PatternTexture> uploaded_;
-    std::optional<ShadowMap> map_;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const ChapterInfo info{
-        "05_jittered_disk",
-        "fewer taps, stratified on a disk: what a pattern misses shows as bands",
-        {{"color", "Blinn-Phong with the filtered S(x)"},
-         {"visibility", "filtered S(x): 0 dark to 1 lit", true, false},
-         {"shadow-kind", "lit white, attached shadow blue, cast shadow red", false, false, 0.0},
-         {"depth", "the shadow map", true, false}}};
+    const ChapterInfo info{"05_jittered_disk",
+                           "fewer taps, stratified on a disk: what a pattern misses shows as bands",
+                           shadowViews("the filtered S(x)", "filtered S(x): 0 dark to 1 lit")};
     return runChapter<JitteredDisk>(info, argc, argv);
 }
