@@ -48,6 +48,7 @@ void byMethod(benchmark::State& state, const std::string& method) {
     ChapterHarness harness(std::make_unique<PolygonOffset>(), scene);
     harness.set("method", method);
     harness.set("map-size", "256");
+    harness.set("fit", "view");
     for (const char* format : formats) {
         harness.set("depth-format", format);
         state.counters[counterName("leak_mm_", format)] = 1e3 * leakLength(harness, 1024);
