@@ -28,7 +28,6 @@ class DepthFromLight : public Chapter {
 
         // Pass 2: the picture. Without shadows, from the camera or from the light, or the map itself.
         const PassScope scope(frame.passTimer, "shading");
-        clearPicture(frame, pass_.options);
         if (frame.view == "color")
             drawFromCamera(frame);
         else if (frame.view == "light-view")
@@ -54,6 +53,7 @@ class DepthFromLight : public Chapter {
 
  private:
     void drawFromCamera(const Frame& frame) {
+        clearPicture(frame, pass_.options);
         glEnable(GL_DEPTH_TEST);
         setCameraAndLight(*lit_, frame, pass_.options);
         drawPicture(*lit_, frame);
@@ -61,6 +61,7 @@ class DepthFromLight : public Chapter {
 
     /// The same picture with the light as the camera: whatever is missing here is in shadow.
     void drawFromLight(const Frame& frame, LightFrustum frustum) {
+        clearPicture(frame, pass_.options);
         frustum.range = DepthRange::standard;
         const int side = std::min(frame.size.x, frame.size.y);
         glViewport((frame.size.x - side) / 2, (frame.size.y - side) / 2, side, side);

@@ -36,7 +36,7 @@ bool outOfReach(Receiver receiver) {
 
 // [begin:loop-or-if]
 #ifdef BRANCH_IF
-// The same written out. In an `if`, a CPU rasteriser runs all of it under a mask, needed or not.
+// Chapter 06's loop written out. In an `if`, a CPU rasteriser runs all of it under a mask, needed or not.
 float chunk(Taps taps, int first, int index) {
     if (index < first || index >= BRANCH_IF) return 0.0;
     return litOfEight(taps, index);
