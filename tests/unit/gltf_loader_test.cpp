@@ -129,7 +129,8 @@ TEST(GltfGeometry, WhatBelongsToACornerStaysWithIt) {
     std::vector<float> positions, normals, uvs;
     std::vector<std::uint16_t> indices;
     for (int i = 0; i < (n + 1) * (n + 1); ++i) {
-        const float x = float(i % (n + 1)), y = float(i / (n + 1));
+        const int column = i % (n + 1), row = i / (n + 1);
+        const float x = float(column), y = float(row);
         const glm::vec3 normal = glm::normalize(glm::vec3(x, y, 1));
         positions.insert(positions.end(), {x, y, 0});
         normals.insert(normals.end(), {normal.x, normal.y, normal.z});
