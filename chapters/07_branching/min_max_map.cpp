@@ -7,8 +7,8 @@
 namespace penumbra {
 
 MinMaxMap::MinMaxMap(bool gather)
-    : blocks_("common/fullscreen.vert", "07_branching/min_max_blocks.frag",
-              gather ? std::vector<std::string>{"USE_GATHER"} : std::vector<std::string>{}),
+    : gather_(gather),
+      blocks_("common/fullscreen.vert", "07_branching/min_max_blocks.frag"),
       dilate_("common/fullscreen.vert", "07_branching/min_max_dilate.frag") {}
 
 void MinMaxMap::Target::provide(const glm::ivec2& wanted) {
@@ -47,12 +47,12 @@ void MinMaxMap::build(const ShadowMap& map, DepthRange range, const std::array<g
     GLint viewport[4];
     glGetIntegerv(GL_VIEWPORT, viewport);
     glDisable(GL_DEPTH_TEST);
-    blocks_.setTexture("uShadowMap", GL_TEXTURE_2D, map.texture());
-    blocks_.set("uFarther", range == DepthRange::reversed ? -1.0f : 1.0f);
-    blocks_.set("uSlope0", slopes[0]);
-    blocks_.set("uSlope1", slopes[1]);
-    blocks_.set("uSlope2", slopes[2]);
-    blocks_.prepareToDraw();
+    Program& blocks = blocksOf(range);
+    blocks.setTexture("uShadowMap", GL_TEXTURE_2D, map.texture());
+    blocks.set("uSlope0", slopes[0]);
+    blocks.set("uSlope1", slopes[1]);
+    blocks.set("uSlope2", slopes[2]);
+    blocks.prepareToDraw();
     blockwise_.bind();
     triangle_.draw();
     dilate(blockwise_, along_, {1, 0});
@@ -63,6 +63,19 @@ void MinMaxMap::build(const ShadowMap& map, DepthRange range, const std::array<g
     frame.work["min_max_maps_built"] += 1;
 }
 // [end:build]
+
+Program& MinMaxMap::blocksOf(DepthRange range) {
+    std::vector<std::string> defines;
+    if (gather_) defines.push_back("USE_GATHER");
+    if (range == DepthRange::reversed) defines.push_back("REVERSED");
+    return blocks_.with(defines);
+}
+
+std::vector<Program*> MinMaxMap::programs() {
+    std::vector<Program*> all = blocks_.compiled();
+    all.push_back(&dilate_);
+    return all;
+}
 
 void MinMaxMap::dilate(const Target& from, const Target& to, const glm::ivec2& direction) {
     dilate_.setTexture("uBlocks", GL_TEXTURE_2D, from.texture.id());

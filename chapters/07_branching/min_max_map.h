@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "chapters/01_depth_from_light/shadow_map.h"
+#include "chapters/06_jitter_texture/program_variants.h"
 #include "common/gl/fullscreen.h"
 
 namespace penumbra {
@@ -34,7 +35,7 @@ class MinMaxMap {
     const glm::ivec2& size() const { return dilated_.size; }
     int window() const { return window_; }
     int before() const { return before_; }
-    std::vector<Program*> programs() { return {&blocks_, &dilate_}; }
+    std::vector<Program*> programs();
 
  private:
     struct Target {
@@ -50,9 +51,12 @@ class MinMaxMap {
         float reach;
         bool operator==(const Key&) const = default;
     };
+    Program& blocksOf(DepthRange range);
     void dilate(const Target& from, const Target& to, const glm::ivec2& direction);
 
-    Program blocks_, dilate_;
+    bool gather_;
+    ProgramVariants blocks_;
+    Program dilate_;
     FullscreenTriangle triangle_;
     Target blockwise_, along_, dilated_;
     std::optional<Key> held_;

@@ -151,7 +151,7 @@ TEST(Chapter07, ABrokenShaderIsCaught) {
         {"one texel short", classify, "- uReach);", "- uReach + 1.0);"},
         {"back faces only", branching, "onMap && facesLight(pWorld, nWorld)",
          "onMap && !facesLight(pWorld, nWorld)"},
-        {"farthest taken for nearest", blocks, "smallest(-depth)", "-smallest(depth)"},
+        {"farthest taken for nearest", blocks, "smallest(-columns.farthest)", "-smallest(columns.farthest)"},
         {"no allowance for the slope", classify, "z - length(taps.radius * slope) - rounding",
          "z + length(slope)"},
         {"tighter than the disk", classify, "z + excess <=", "z - 4.0 * excess <="},
