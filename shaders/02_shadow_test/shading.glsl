@@ -35,8 +35,8 @@ bool facesLight(vec3 pWorld, vec3 nWorld) {
     return dot(gl_FrontFacing ? nWorld : -nWorld, towardsLight(pWorld)) > 0.0;
 }
 
-vec4 viewOf(vec3 pWorld, vec3 nWorld, vec2 uv, float S) {
-    bool facing = facesLight(pWorld, nWorld);
+// `facing`: facesLight of the point.
+vec4 viewOf(vec3 pWorld, vec3 nWorld, vec2 uv, float S, bool facing) {
     if (!facing) S = 0.0;
     vec3 radiance = shadedRadiance(pWorld, nWorld, uv, S);
     if (uView == 1) return vec4(vec3(S), 1.0);

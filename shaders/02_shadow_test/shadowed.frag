@@ -22,5 +22,5 @@ float shadowTest(vec4 pShadow) {
 
 void main() {
     float S = shadowTest(strq);
-    outColor = viewOf(pWorld, nWorld, vUv, S);
+    outColor = viewOf(pWorld, nWorld, vUv, S, facesLight(pWorld, nWorld));
 }

@@ -65,5 +65,5 @@ void main() {
     // Differences to the neighbours come first: inside a branch they are undefined.
     vec4 dx = dFdx(strq), dy = dFdy(strq);
     float S = shadowTest(strq, dx, dy);
-    outColor = viewOf(pWorld, nWorld, vUv, S);
+    outColor = viewOf(pWorld, nWorld, vUv, S, facesLight(pWorld, nWorld));
 }

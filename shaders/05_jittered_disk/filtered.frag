@@ -13,5 +13,5 @@ void main() {
     Receiver receiver;
     float S;
     if (receiverOnMap(strq, pWorld, dx, dy, receiver, S)) S = diskVisibility(receiver);
-    outColor = viewOf(pWorld, nWorld, vUv, S);
+    outColor = viewOf(pWorld, nWorld, vUv, S, facesLight(pWorld, nWorld));
 }

@@ -20,5 +20,5 @@ void main() {
     Receiver receiver;
     float S;
     if (receiverOnMap(strq, pWorld, dx, dy, receiver, S)) S = jitteredVisibility(receiver);
-    outColor = viewOf(pWorld, nWorld, vUv, S);
+    outColor = viewOf(pWorld, nWorld, vUv, S, facesLight(pWorld, nWorld));
 }

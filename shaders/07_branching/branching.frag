@@ -126,8 +126,9 @@ void main() {
     Receiver receiver;
     float S;
     bool onMap = receiverOnMap(strq, pWorld, dx, dy, receiver, S);
+    bool facing = facesLight(pWorld, nWorld);
     Work work;
-    work.receives = onMap && facesLight(pWorld, nWorld);
+    work.receives = onMap && facing;
     work.looked = work.receives && !outOfReach(receiver);
     work.searched = false;
 #ifdef CLASSIFY_NONE
@@ -136,7 +137,7 @@ void main() {
     float branched = branchedVisibility(receiver, work);
     if (onMap) S = branched;
 
-    outColor = viewOf(pWorld, nWorld, vUv, S);
+    outColor = viewOf(pWorld, nWorld, vUv, S, facing);
     bool searched = work.searched && work.receives;
     if (uView == 3 && searched) outColor = vec4(uRed * vec3(0.9, 0.05, 0.02), 1.0);
     if (uView == 4) outColor = vec4(work.receives, work.looked && work.receives, searched, 1.0);

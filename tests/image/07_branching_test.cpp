@@ -149,8 +149,7 @@ TEST(Chapter07, ABrokenShaderIsCaught) {
     const Mutation mutations[] = {
         {"one block short", dilate, "i < uCount", "i < uCount - 1"},
         {"one texel short", classify, "- uReach);", "- uReach + 1.0);"},
-        {"back faces only", branching, "onMap && facesLight(pWorld, nWorld)",
-         "onMap && !facesLight(pWorld, nWorld)"},
+        {"back faces only", branching, "onMap && facing", "onMap && !facing"},
         {"farthest taken for nearest", blocks, "smallest(-columns.farthest)", "-smallest(columns.farthest)"},
         {"no allowance for the slope", classify, "z - length(taps.radius * slope) - rounding",
          "z + length(slope)"},
