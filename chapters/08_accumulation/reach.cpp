@@ -69,7 +69,7 @@ void Reach::close(std::uint32_t groupStart) {
 void Reach::addPolygon(const Polygon3& area, const glm::dvec3& normal, const Polygon3& light) {
     for (const glm::dvec3& p : light.span()) scale_ = std::max(scale_, sumOfMagnitudes(p));
     const double slack = relativeSlack * scale_;
-    pieces_.push_back({std::uint32_t(groups_.size()), 0});
+    pieces_.push_back({std::uint32_t(groups_.size()), 0, area, light});
     // Above the receiver, by more than the floats of a flat surface are off their plane.
     auto start = std::uint32_t(planes_.size());
     add(normal, area[0], -2.0 * 0x1p-24 * scale_);
@@ -100,7 +100,7 @@ void Reach::addDirection(const Polygon3& area, const glm::dvec3& normal, const g
                          bool isPoint) {
     if (isPoint) scale_ = std::max(scale_, sumOfMagnitudes(toLight));
     const Polygon3 outline = glm::dot(areaNormal(area.span()), normal) > 0.0 ? area : flipped(area);
-    pieces_.push_back({std::uint32_t(groups_.size()), 0});
+    pieces_.push_back({std::uint32_t(groups_.size()), 0, area, {}});
     auto start = std::uint32_t(planes_.size());
     add(normal, area[0], -2.0 * 0x1p-24 * scale_);
     close(start);
@@ -122,39 +122,66 @@ void Reach::addDirection(const Polygon3& area, const glm::dvec3& normal, const g
 
 /// `outside(plane)`: wholly on the outer side.
 template <class Outside>
-bool Reach::missesAll(const Outside& outside) const {
+bool Reach::missesPlanes(const Piece& piece, const Outside& outside) const {
     const auto outsideGroup = [&](const Group& group) {
         for (std::uint32_t i = group.first; i < group.first + group.count; ++i)
             if (!outside(planes_[i])) return false;
         return true;
     };
-    const auto missesPiece = [&](const Piece& piece) {
-        for (std::uint32_t i = piece.first; i < piece.first + piece.count; ++i)
-            if (outsideGroup(groups_[i])) return true;
-        return false;
+    for (std::uint32_t i = piece.first; i < piece.first + piece.count; ++i)
+        if (outsideGroup(groups_[i])) return true;
+    return false;
+}
+
+bool Reach::passesAnEdge(const Piece& piece, const Triangle& t, double slack) const {
+    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+    const auto side = [&](const glm::dvec3& x) { return glm::dot(normal, t[0] - x); };
+    const double sign = side(piece.area[0]) > 0.0 ? 1.0 : -1.0;
+    const double flat = slack * sumOfMagnitudes(normal);
+    for (const glm::dvec3& x : piece.area.span())
+        if (sign * side(x) <= flat)
+            return false;  // its plane cuts the area: no edge is the same from all sides
+    const auto isOutside = [&](const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b) {
+        const glm::dvec3 inward = sign * glm::cross(a - x, b - x);
+        const double limit = -slack * sumOfMagnitudes(inward);
+        for (const glm::dvec3& p : piece.light.span())
+            if (glm::dot(inward, p - x) >= limit) return false;
+        return true;
     };
-    return std::all_of(pieces_.begin(), pieces_.end(), missesPiece);
+    for (std::size_t k = 0; k < 3; ++k) {
+        bool all = true;
+        for (int i = 0; i < piece.area.count && all; ++i)
+            all = isOutside(piece.area[i], t[k], t[(k + 1) % 3]);
+        if (all) return true;
+    }
+    return false;
 }
 
 bool Reach::misses(const Aabb& box) const {
     if (box.empty()) return true;
     const glm::dvec3 centre = box.centre(), half = 0.5 * box.size();
     const double slack = relativeSlack * (sumOfMagnitudes(centre) + sumOfMagnitudes(half));
-    return missesAll([&](const Plane& plane) {
+    const auto outside = [&](const Plane& plane) {
         const double nearest =
             glm::dot(plane.inward, centre - plane.point) + glm::dot(glm::abs(plane.inward), half);
         return nearest < -plane.slack - (plane.slack < 0.0 ? 0.0 : slack);
-    });
+    };
+    return std::all_of(pieces_.begin(), pieces_.end(),
+                       [&](const Piece& piece) { return missesPlanes(piece, outside); });
 }
 
 bool Reach::misses(const Triangle& t) const {
     const double slack =
         relativeSlack * std::max({sumOfMagnitudes(t[0]), sumOfMagnitudes(t[1]), sumOfMagnitudes(t[2])});
-    return missesAll([&](const Plane& plane) {
+    const auto outside = [&](const Plane& plane) {
         const double limit = -plane.slack - (plane.slack < 0.0 ? 0.0 : slack);
         return glm::dot(plane.inward, t[0] - plane.point) < limit &&
                glm::dot(plane.inward, t[1] - plane.point) < limit &&
                glm::dot(plane.inward, t[2] - plane.point) < limit;
+    };
+    return std::all_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
+        return missesPlanes(piece, outside) ||
+               (!piece.light.empty() && passesAnEdge(piece, t, slack + relativeSlack * scale_));
     });
 }
 
@@ -184,17 +211,16 @@ Occluders occludersBetween(const Scene& scene, const Receiver& receiver, const L
         const Cluster& cluster = scene.clusters[c];
         if (int(cluster.part) == light.part || reach.misses(cluster.bounds)) continue;
         const std::size_t before = found.reaching.size();
-        double highest = 0.0;
         for (std::uint32_t t = cluster.firstTriangle; t < cluster.firstTriangle + cluster.triangleCount;
              ++t) {
             const Triangle triangle = triangleOf(scene, t);
-            for (const glm::dvec3& p : triangle) highest = std::max(highest, receiver.height(p));
-            if (!std::binary_search(receiver.triangles.begin(), receiver.triangles.end(), t) &&
-                !reach.misses(triangle))
-                found.reaching.push_back(triangle);
+            if (std::binary_search(receiver.triangles.begin(), receiver.triangles.end(), t) ||
+                reach.misses(triangle))
+                continue;
+            found.reaching.push_back(triangle);
+            for (const glm::dvec3& p : triangle) found.highest = std::max(found.highest, receiver.height(p));
         }
         if (found.reaching.size() == before) continue;
-        found.highest = std::max(found.highest, highest);
         found.clusters.clusters.push_back(c);
         found.clusters.triangles += cluster.triangleCount;
     }

@@ -47,6 +47,7 @@ class Reach {
     };
     struct Piece {
         std::uint32_t first = 0, count = 0;  ///< of `groups_`
+        Polygon3 area, light;                ///< cut to where they see each other; no light: a point's
     };
 
     void addPolygon(const Polygon3& area, const glm::dvec3& normal, const Polygon3& light);
@@ -55,7 +56,9 @@ class Reach {
     void add(const glm::dvec3& inward, const glm::dvec3& point, double slack);
     void close(std::uint32_t groupStart);
     template <class Outside>
-    bool missesAll(const Outside& outside) const;
+    bool missesPlanes(const Piece& piece, const Outside& outside) const;
+    /// Is the piece of the light beside the triangle, past one of its edges, from everywhere on the area?
+    bool passesAnEdge(const Piece& piece, const Triangle& triangle, double slack) const;
 
     std::vector<Plane> planes_;
     std::vector<Group> groups_;
@@ -67,7 +70,7 @@ class Reach {
 struct Occluders {
     VisibleClusters clusters;        ///< all triangles that reach between are in these
     std::vector<Triangle> reaching;  ///< those triangles, in scene order
-    double highest = 0.0;            ///< metres above the receiver's plane, of any corner of these clusters
+    double highest = 0.0;            ///< metres above the receiver's plane, of any corner of those triangles
     double near = 0.5;  ///< for projectOnReceiver: nothing of them is nearer to any point of the light
 };
 
