@@ -1,0 +1,141 @@
+#include "chapters/08_accumulation/stored_shadow.h"
+
+#include <algorithm>
+
+#include "chapters/08_accumulation/exact_receiver.h"
+#include "common/app/pass_timer.h"
+
+namespace penumbra {
+
+GLenum sumFormat(const Capabilities& capabilities, const std::string& target) {
+    if (target == "8") return GL_RG8;
+    return target == "16f" || !capabilities.floatBlend ? GL_RG16F : GL_RG32F;
+}
+
+// [begin:stored]
+void StoredShadow::update(const Request& request, ShadowPasses& passes) {
+    const Frame& frame = request.frame;
+    const std::string shadowKey = request.options.shadowKey(frame.seed),
+                      lightKey = request.options.lightKey();
+    const bool kept = frame.skip && !frame.renderMapsAgain && shadowKey == shadowKey_;
+    if (!kept) drawShadows(request, passes);
+    // The masks know each point by itself: other weights need no occluder again. Sums have forgotten.
+    const bool same = kept && lightKey == lightKey_;
+    const bool hasMasks = request.options.method == "mask";
+    if (plan_.reached && !same && hasMasks) addWeights(request, passes);
+    if (plan_.reached && kept && !same && !hasMasks) drawShadows(request, passes);
+    if (!same) ++revision_;
+    shadowKey_ = shadowKey;
+    lightKey_ = lightKey;
+    count(request);
+}
+// [end:stored]
+
+void StoredShadow::drawShadows(const Request& request, ShadowPasses& passes) {
+    const AccumulationOptions& options = request.options;
+    const Frame& frame = request.frame;
+    {
+        const PassScope scope(frame.passTimer, "plan");
+        plan_ = planShadows(frame.scene, request.receiver, request.whole,
+                            options.points(request.whole, options.samples, frame.seed), frame.skip);
+    }
+    if (!plan_.reached) {
+        sums_.reset();
+        masks_.reset();
+        return;
+    }
+    provideSums(request);
+    if (options.method == "exact") return solve(request);
+    if (options.method == "accumulate") {
+        const PassScope scope(frame.passTimer, "accumulate");
+        const PointWeights weights = weightsOf(request);
+        scale_ = weights.scale;
+        passes.accumulate.run(frame, request.receiver, plan_, request.whole.part, weights.values,
+                              options.weights, *sums_);
+        return;
+    }
+    const bool stencil = options.masks == "stencil" || !frame.context->capabilities().logicOp;
+    const BitSetting setting = stencil ? BitSetting::stencil : BitSetting::logicOp;
+    const int points = std::max(1, int(plan_.points.size()));
+    if (!masks_ || masks_->size() != request.receiver.texels || masks_->points() != points ||
+        masks_->setting() != setting) {
+        masks_.reset();
+        masks_.emplace(request.receiver.texels, points, setting);
+    }
+    passes.mask.draw(frame, plan_, request.whole.part, *masks_);
+}
+
+void StoredShadow::provideSums(const Request& request) {
+    const AccumulationOptions& options = request.options;
+    const std::string target = options.method == "accumulate" ? options.target : "32f";
+    const GLenum format = sumFormat(request.frame.context->capabilities(), target);
+    if (!sums_ || sums_->size() != request.receiver.texels || sums_->format() != format)
+        sums_.emplace(request.receiver.texels, format, true);
+    if (options.method != "mask") masks_.reset();
+}
+
+PointWeights StoredShadow::weightsOf(const Request& request) const {
+    std::vector<bool> on;
+    for (const LightPoint& point : plan_.points)
+        on.push_back(inLightPart(request.whole, request.options.lightPart, point.position));
+    return pointWeights(request.receiver, plan_.points, on);
+}
+
+void StoredShadow::addWeights(const Request& request, ShadowPasses& passes) {
+    const PassScope scope(request.frame.passTimer, "resolve");
+    const PointWeights weights = weightsOf(request);
+    scale_ = weights.scale;
+    const bool everywhere = !request.frame.skip || request.options.weights == "sum";
+    passes.mask.resolve(request.receiver, plan_, weights.values, request.options.weights, everywhere, *masks_,
+                        *sums_);
+}
+
+void StoredShadow::solve(const Request& request) {
+    const PassScope scope(request.frame.passTimer, "exact");
+    const ExactIrradiance visible =
+        exactIrradiance(request.receiver, request.lit, plan_.occluders.reaching, request.frame.skip);
+    const std::vector<double> all = unoccludedIrradiance(request.receiver, request.lit);
+    std::vector<float> values;
+    values.reserve(2 * all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        values.push_back(float(visible.values[i]));
+        values.push_back(float(all[i]));
+    }
+    sums_->upload(values);
+    request.frame.work["texels_solved"] += visible.shadowTexels;
+    request.frame.work["triangle_tests"] += visible.triangleTests;
+}
+
+GLuint StoredShadow::unoccluded(const Request& request) {
+    const std::string key = request.options.shadowKey(request.frame.seed) + request.options.lightPart;
+    if (unoccluded_ && key == unoccludedKey_ && request.frame.skip && !request.frame.renderMapsAgain)
+        return unoccluded_->texture();
+    const PassScope scope(request.frame.passTimer, "unoccluded");
+    unoccludedKey_ = key;
+    const std::vector<double> values = unoccludedIrradiance(request.receiver, request.lit);
+    if (!unoccluded_ || unoccluded_->size() != request.receiver.texels)
+        unoccluded_.emplace(request.receiver.texels, GL_R32F);
+    unoccluded_->upload(std::vector<float>(values.begin(), values.end()));
+    return unoccluded_->texture();
+}
+
+void StoredShadow::count(const Request& request) {
+    WorkCounters& work = request.frame.work;
+    work["receivers"] += 1;
+    work["receivers_facing_away"] += !plan_.receives;
+    work["receivers_unreached"] += plan_.receives && !plan_.reached;
+    const std::int64_t texels = std::int64_t(request.receiver.texels.x) * request.receiver.texels.y;
+    work["texels"] += texels;
+    work["texels_in_reach"] += plan_.texelsInReach;
+    // Once for each change: a timed frame does not read back.
+    const std::string key = shadowKey_ + lightKey_ + (request.frame.skip ? "" : " all");
+    if (plan_.reached && key != countedKey_) {
+        const std::vector<glm::vec4> sums = sums_->read();
+        mixed_ = std::count_if(sums.begin(), sums.end(),
+                               [](const glm::vec4& s) { return s.r > 0.0f && s.r < s.g; });
+    }
+    countedKey_ = key;
+    work["texels_mixed"] += plan_.reached ? mixed_ : 0;
+}
+
+}  // namespace penumbra
