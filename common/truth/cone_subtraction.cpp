@@ -89,7 +89,8 @@ bool covers(const Cone& cone, const Polygon3& polygon) {
 
 /// Appends the cone over triangle `t` (relative to x), unless it can hide nothing of the light: beside the
 /// pyramid; degenerate; behind the light or part of its surface; or with x in its plane as far as doubles can
-/// tell (no surface shadows itself).
+/// tell (no surface shadows itself). So only triangles that do hide something have a say in the order in
+/// which pieces are summed, and leaving out others beforehand changes no bit of the result.
 void appendCone(const LightPyramid& pyramid, const Triangle& t, std::vector<Cone>& cones) {
     if (misses(pyramid, t)) return;
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
@@ -101,7 +102,8 @@ void appendCone(const LightPyramid& pyramid, const Triangle& t, std::vector<Cone
         {sign * edgePlane(t[0], t[1]), sign * edgePlane(t[1], t[2]), sign * edgePlane(t[2], t[0])},
         sign * normal,
         t};
-    if (!isOutside(cone, pyramid.light, 3, tolerance)) cones.push_back(cone);
+    if (isOutside(cone, pyramid.light, 3, tolerance) || misses(cone, pyramid.light)) return;
+    cones.push_back(cone);
 }
 
 /// A piece that has grown many corners is halved along a diagonal, so that it always has room to be cut.
