@@ -7,8 +7,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "common/scene/find_scene.h"
-#include "common/scene/gltf_loader.h"
 #include "common/scene/light.h"
 #include "common/truth/exact_scene.h"
 #include "common/truth/polygon_light.h"
@@ -54,24 +52,6 @@ TEST(AccumulationExact, GoldenMean) {
     EXPECT_NEAR(sum / (512 * 512 * pi), 0.039284125595, 1e-12);
     EXPECT_LT(exact.shadowTexels, 250000);
     EXPECT_GT(exact.shadowTexels, 200000);
-}
-
-// The loader's floats, its part for the light, Y up: the whole way from a file.
-TEST(AccumulationExact, TheFigureFromItsFile) {
-    const Scene scene = loadGltf(findScene("heckbert_herf"));
-    ReceiverRequest request;
-    request.texelsPerMetre = 128 / 2.4;
-    const Receiver floor = findReceivers(scene, request)[0];
-    const Light& light = scene.lights[0];
-    const Occluders occluders = occludersBetween(scene, floor, light);
-    const ExactIrradiance exact = exactIrradiance(floor, light, occluders.reaching);
-    const ExactScene truth(scene);
-    for (int row = 0; row < 128; ++row)
-        for (int column = 0; column < 128; ++column) {
-            const double expected = truth.visibleFormFactor(floor.texelCentre(column, row), floor.normal,
-                                                            light.polygons[0], light.part);
-            EXPECT_NEAR(at(exact, floor, column, row) / pi, expected, 1e-15);
-        }
 }
 
 TEST(AccumulationExact, CullingChangesNothing) {
