@@ -18,9 +18,9 @@ class Accumulation : public Chapter {
  public:
     void declare(Parameters& parameters) override { options_.declare(parameters); }
 
-    void load(const Scene& scene, const Context*) override {
+    void load(const Scene&, const Context*) override {
         received_.emplace();
-        picture_.emplace(scene);
+        picture_.emplace();
         sheet_.emplace();
     }
 

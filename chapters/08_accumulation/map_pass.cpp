@@ -29,11 +29,11 @@ Light pointOf(const Light& light, const LightPoint& point) {
 
 MapPass::MapPass()
     : depth_("01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag"),
-      camera_("08_accumulation/picture.vert", "01_depth_from_light/depth.frag"),
+      camera_("08_accumulation/picture.vert", "08_accumulation/depth_only.frag"),
       add_("08_accumulation/picture.vert", "08_accumulation/add_map.frag") {}
 
 const TexelTarget& MapPass::run(const Frame& frame, const ShadowOptions& options, const Light& light,
-                                const std::vector<LightPoint>& points) {
+                                const std::vector<LightPoint>& points, const Draw& drawSeen) {
     const PassScope scope(frame.passTimer, "shadow maps");
     const GLenum format = sumFormat(frame.context->capabilities(), "32f");
     if (!sums_ || sums_->size() != frame.size) sums_.emplace(frame.size, format, true);
@@ -43,15 +43,16 @@ const TexelTarget& MapPass::run(const Frame& frame, const ShadowOptions& options
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     setCamera(camera_, frame);
-    drawPicture(camera_, frame);
-    for (const LightPoint& point : points) add(frame, options, pointOf(light, point));
+    drawSeen(camera_);
+    for (const LightPoint& point : points) add(frame, options, pointOf(light, point), drawSeen);
     // [end:shadow-maps]
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
     glViewport(0, 0, frame.size.x, frame.size.y);
     return *sums_;
 }
 
-void MapPass::add(const Frame& frame, const ShadowOptions& options, const Light& point) {
+void MapPass::add(const Frame& frame, const ShadowOptions& options, const Light& point,
+                  const Draw& drawSeen) {
     ShadowMap& map = options.provide(map_, frame.context->capabilities());
     const LightFrustum frustum = fitLightFrustum(frame.scene, point, depthRange(map.format()));
     map.render(depth_, frame, point, frustum);
@@ -66,7 +67,7 @@ void MapPass::add(const Frame& frame, const ShadowOptions& options, const Light&
     glDepthFunc(GL_EQUAL);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
-    drawPicture(add_, frame);
+    drawSeen(add_);
     glDisable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ZERO);
     glDepthFunc(GL_LESS);

@@ -1,5 +1,7 @@
 #include "chapters/08_accumulation/mask_pass.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "chapters/08_accumulation/accumulate_pass.h"
@@ -10,6 +12,8 @@ namespace penumbra {
 namespace {
 
 constexpr int pointsInLayer = 32;
+/// Of the resolve pass: 192 light points, since OpenGL ES promises 224 vectors to a fragment shader.
+constexpr int layersInPass = 6;
 
 std::vector<std::string> maskDefines(const MaskLayers& masks) {
     if (masks.setting() == BitSetting::stencil) return {"BYTES"};
@@ -75,8 +79,8 @@ void MaskPass::drawByStencil(const ShadowPlan& plan, const MaskLayers& masks) {
 }
 // [end:stencil]
 
-void MaskPass::drawTexels(Program& program, const TexelTarget& sums) {
-    program.set("uTextureSize", glm::vec2(sums.size()));
+void MaskPass::drawTexels(Program& program, const PackedSums& sums) {
+    program.set("uFragments", glm::vec2(sums.fragments()));
     program.prepareToDraw();
     glBindVertexArray(texelArray_.id());
     glDrawArrays(GL_TRIANGLES, 0, texelCount_);
@@ -84,7 +88,7 @@ void MaskPass::drawTexels(Program& program, const TexelTarget& sums) {
 
 void MaskPass::resolve(const Receiver& receiver, const ShadowPlan& plan,
                        const std::vector<glm::vec4>& weights, const std::string& weighting, bool everywhere,
-                       const MaskLayers& masks, const TexelTarget& sums) {
+                       const MaskLayers& masks, const PackedSums& sums) {
     const std::vector<glm::vec2> texels = everywhere ? wholeTexture(receiver.texels) : plan.texels;
     glBindBuffer(GL_ARRAY_BUFFER, texels_.id());
     glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(texels.size() * sizeof(glm::vec2)), texels.data(),
@@ -95,7 +99,7 @@ void MaskPass::resolve(const Receiver& receiver, const ShadowPlan& plan,
     // [begin:resolve]
     // What no shadow reaches is lit, and its depth 0 keeps it out of the passes below.
     const bool known = !everywhere;
-    sums.clear(known ? glm::vec4(1, 1, 0, 0) : glm::vec4(0.0f), known ? 0.0f : 1.0f);
+    sums.clear(known ? 1.0f : 0.0f, known ? 0.0f : 1.0f);
     if (known) {
         Program& classify = classify_.with(defines);
         classify.setTexture("uMasks", GL_TEXTURE_2D_ARRAY, masks.texture());
@@ -110,15 +114,17 @@ void MaskPass::resolve(const Receiver& receiver, const ShadowPlan& plan,
     glBlendFunc(GL_ONE, GL_ONE);
     const std::vector<std::string> more = weightDefines(weighting);
     defines.insert(defines.end(), more.begin(), more.end());
+    defines.push_back(fmt::format("LAYERS {}", layersInPass));
     Program& resolve = resolve_.with(defines);
     resolve.setTexture("uMasks", GL_TEXTURE_2D_ARRAY, masks.texture());
     setPlane(resolve, receiver);
-    for (int layer = 0; layer < masks.layers(); ++layer) {
-        std::vector<glm::vec4> points(pointsInLayer, glm::vec4(0, 0, 1, 0));
+    for (int layer = 0; layer < masks.layers(); layer += layersInPass) {
         const std::size_t first = std::size_t(pointsInLayer) * std::size_t(layer);
+        std::vector<glm::vec4> points(pointsInLayer * layersInPass, glm::vec4(0, 0, 1, 0));
         std::copy_n(weights.begin() + long(first), std::min(weights.size() - first, points.size()),
                     points.begin());
-        resolve.set("uLayer", layer);
+        resolve.set("uFirstLayer", layer);
+        resolve.set("uLayers", std::min(layersInPass, masks.layers() - layer));
         resolve.set("uLightPoints", points);
         drawTexels(resolve, sums);
     }

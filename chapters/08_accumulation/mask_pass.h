@@ -17,13 +17,13 @@ class MaskPass {
     /// where all points agree, unless `everywhere`: the same V.
     void resolve(const Receiver& receiver, const ShadowPlan& plan, const std::vector<glm::vec4>& weights,
                  const std::string& weighting, bool everywhere, const MaskLayers& masks,
-                 const TexelTarget& sums);
+                 const PackedSums& sums);
     std::vector<Program*> programs();
 
  private:
     void drawByLogicOp(const ShadowPlan& plan, const MaskLayers& masks);
     void drawByStencil(const ShadowPlan& plan, const MaskLayers& masks);
-    void drawTexels(Program& program, const TexelTarget& sums);
+    void drawTexels(Program& program, const PackedSums& sums);
 
     Program bits_, byteBits_;
     ProgramVariants classify_, resolve_;

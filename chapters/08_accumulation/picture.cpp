@@ -8,18 +8,6 @@ namespace penumbra {
 
 namespace {
 
-/// Neighbouring triangles in one range. `triangles` ascending.
-std::vector<IndexRange> rangesOf(const std::vector<std::uint32_t>& triangles) {
-    std::vector<IndexRange> ranges;
-    for (const std::uint32_t triangle : triangles) {
-        if (!ranges.empty() && ranges.back().firstTriangle + ranges.back().triangleCount == triangle)
-            ++ranges.back().triangleCount;
-        else
-            ranges.push_back({triangle, 1});
-    }
-    return ranges;
-}
-
 /// dot(., (p, 1)) is the texel coordinate of p along u (`axis` 0) or v.
 glm::vec4 texelRow(const Receiver& receiver, int axis) {
     const glm::dvec2 zero = receiver.uv(glm::dvec3(0.0));
@@ -39,9 +27,12 @@ int viewNumber(const std::string& view) {
 
 }  // namespace
 
-Picture::Picture(const Scene&)
+Picture::Picture()
     : other_("08_accumulation/picture.vert", "08_accumulation/other.frag"),
-      received_("08_accumulation/picture.vert", "08_accumulation/received.frag") {}
+      received_("08_accumulation/picture.vert", "08_accumulation/received.frag"),
+      dark_(glm::ivec2(1), GL_RGBA8) {
+    dark_.clear(glm::vec4(0.0f));
+}
 
 void Picture::setView(Program& program, const Frame& frame, const AccumulationOptions& options) {
     program.set("uClipFromWorld",
@@ -54,29 +45,32 @@ void Picture::setView(Program& program, const Frame& frame, const AccumulationOp
 void Picture::draw(const Frame& frame, const AccumulationOptions& options, const ReceivedLight* received) {
     std::vector<int> lights = options.chosenLights(frame.scene);
     if (frame.view == "visibility" || frame.view == "work") lights.resize(1);  // of the first
-    const std::int64_t others = received ? otherTriangles(frame.scene, received->receivers()) : 1;
-    const bool shadowed = !received || (options.others == "shadow-maps" && others > 0);
-    if (!shadowed) frame.work["others_unshadowed"] = others;
+    const OtherSurfaces others(frame.scene, received ? received->receivers() : std::vector<Receiver>{});
     clearPicture(frame, options.maps);
-    for (std::size_t i = 0; i < lights.size(); ++i) drawOthers(frame, options, lights[i], i == 0, shadowed);
+    for (std::size_t i = 0; i < lights.size(); ++i) drawOthers(frame, options, others, lights[i], i == 0);
     if (received) drawReceivers(frame, options, *received);
 }
 // [end:picture]
 
-void Picture::drawOthers(const Frame& frame, const AccumulationOptions& options, int index, bool first,
-                         bool shadowed) {
+void Picture::drawOthers(const Frame& frame, const AccumulationOptions& options, const OtherSurfaces& others,
+                         int index, bool first) {
     const Light& whole = frame.scene.lights[std::size_t(index)];
     const Light light = options.lit(frame.scene, index);
+    const bool all = options.method == "shadow-maps";
+    const bool shadowed = all || (options.others == "shadow-maps" && others.count() > 0);
+    const auto drawSeen = [&](Program& program) { others.draw(program, frame); };
+    GLuint sums = 0;
     if (shadowed) {
-        const int count = options.method == "shadow-maps" ? options.samples : options.othersSamples;
-        std::vector<LightPoint> points = options.points(whole, count, frame.seed);
+        std::vector<LightPoint> points =
+            options.points(whole, all ? options.samples : options.othersSamples, frame.seed);
         std::erase_if(points, [&](const LightPoint& point) {
             return !inLightPart(whole, options.lightPart, point.position);
         });
-        other_.setTexture("uMapSums", GL_TEXTURE_2D, maps_.run(frame, options.maps, light, points).texture());
+        sums = maps_.run(frame, options.maps, light, points, drawSeen).texture();
     } else {
-        other_.setTexture("uMapSums", GL_TEXTURE_2D, 0);
+        frame.work["others_unshadowed"] = others.count();
     }
+    other_.setTexture("uMapSums", GL_TEXTURE_2D, sums);
     setView(other_, frame, options);
     setLight(other_, light);
     setTriangles(light);
@@ -86,7 +80,7 @@ void Picture::drawOthers(const Frame& frame, const AccumulationOptions& options,
     glDepthFunc(first ? GL_LESS : GL_EQUAL);
     if (!first) glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
-    drawPicture(other_, frame);
+    drawSeen(other_);
     glBlendFunc(GL_ONE, GL_ZERO);
     glDisable(GL_BLEND);
     glDepthFunc(GL_LESS);
@@ -109,23 +103,30 @@ void Picture::setTriangles(const Light& light) {
     other_.set("uRadiance", glm::vec3(light.emission));
 }
 
+void Picture::drawReceiver(const Frame& frame, const Receiver& receiver) {
+    received_.set("uTexelX", texelRow(receiver, 0));
+    received_.set("uTexelY", texelRow(receiver, 1));
+    const DrawCounts drawn = frame.gpu->drawShaded(received_, receiver.part, rangesOf(receiver.triangles));
+    frame.work["triangles_shaded"] += std::int64_t(drawn.triangles);
+    frame.work["draw_calls"] += std::int64_t(drawn.drawCalls);
+}
+
 // [begin:receivers]
 void Picture::drawReceivers(const Frame& frame, const AccumulationOptions& options,
                             const ReceivedLight& received) {
     setView(received_, frame, options);
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);  // over what was drawn in closed form, at the same depths
-    glEnable(GL_CULL_FACE);  // each side of a surface is a receiver of its own
+    // A side that is no receiver gets no light. It is drawn first, and both sides have the same depths.
+    glDepthFunc(GL_LEQUAL);
+    received_.setTexture("uReceived", GL_TEXTURE_2D, dark_.texture());
+    for (const Receiver& receiver : received.receivers()) drawReceiver(frame, receiver);
+    glEnable(GL_CULL_FACE);
     for (std::size_t i = 0; i < received.receivers().size(); ++i) {
         const Receiver& receiver = received.receivers()[i];
         if (!received.texture(i)) continue;
         received_.setTexture("uReceived", GL_TEXTURE_2D, received.texture(i)->texture());
-        received_.set("uTexelX", texelRow(receiver, 0));
-        received_.set("uTexelY", texelRow(receiver, 1));
         glCullFace(receiver.back ? GL_FRONT : GL_BACK);
-        const DrawCounts drawn =
-            frame.gpu->drawShaded(received_, receiver.part, rangesOf(receiver.triangles));
-        frame.work["draw_calls"] += std::int64_t(drawn.drawCalls);
+        drawReceiver(frame, receiver);
     }
     glCullFace(GL_BACK);
     glDisable(GL_CULL_FACE);
@@ -137,18 +138,6 @@ std::vector<Program*> Picture::programs() {
     std::vector<Program*> all = maps_.programs();
     all.insert(all.end(), {&other_, &received_});
     return all;
-}
-
-std::int64_t otherTriangles(const Scene& scene, const std::vector<Receiver>& receivers) {
-    std::vector<bool> received(scene.triangleCount(), false);
-    for (const Receiver& receiver : receivers)
-        for (const std::uint32_t triangle : receiver.triangles) received[triangle] = true;
-    for (const Light& light : scene.lights) {
-        if (light.part < 0) continue;
-        const Part& part = scene.parts[std::size_t(light.part)];
-        std::fill_n(received.begin() + part.firstTriangle, part.triangleCount, true);
-    }
-    return std::count(received.begin(), received.end(), false);
 }
 
 }  // namespace penumbra

@@ -57,8 +57,8 @@ void ReceivedLight::update(const Frame& frame, const AccumulationOptions& option
         if (key == composed_[i] && frame.skip && !frame.renderMapsAgain) continue;
         composed_[i] = key;
         const PassScope scope(frame.passTimer, "compose");
-        const GLenum format = frame.context->capabilities().floatBlend ? GL_RGBA32F : GL_RGBA16F;
-        if (!textures_[i]) textures_[i].emplace(receivers_[i].texels, format);
+        if (!textures_[i])
+            textures_[i].emplace(receivers_[i].texels, sumFormat(frame.context->capabilities(), "32f"));
         textures_[i]->clear(glm::vec4(0.0f));
         std::size_t k = 0;
         for (auto& [index, shadows] : shadows_) {
@@ -78,11 +78,14 @@ void ReceivedLight::update(const Frame& frame, const AccumulationOptions& option
 void ReceivedLight::compose(const StoredShadow::Request& request, StoredShadow& shadow, Output output,
                             const TexelTarget& target) {
     if (!shadow.plan().receives) return;
-    const bool sum = request.options.weights == "sum" && shadow.sums();
+    const bool sum = request.options.weights == "sum" && shadow.plan().reached;
     const bool needsUnoccluded = output == Output::irradiance || sum;
-    const GLuint sums = shadow.sums() ? shadow.sums()->texture() : 0;
-    compose_.setTexture("uSums", GL_TEXTURE_2D, sums);
-    compose_.setTexture("uUnoccluded", GL_TEXTURE_2D, needsUnoccluded ? shadow.unoccluded(request) : sums);
+    const PackedSums* packed = shadow.packedSums();
+    compose_.setTexture("uSums", GL_TEXTURE_2D, shadow.sums() ? shadow.sums()->texture() : 0);
+    compose_.setTexture("uSeen", GL_TEXTURE_2D, packed ? packed->seen() : 0);
+    compose_.setTexture("uAll", GL_TEXTURE_2D, packed ? packed->all() : 0);
+    compose_.set("uPacked", packed != nullptr);
+    compose_.setTexture("uUnoccluded", GL_TEXTURE_2D, needsUnoccluded ? shadow.unoccluded(request) : 0);
     compose_.set("uKnown", shadow.plan().reached ? 0 : 1);
     compose_.set("uRatio", !sum || request.options.method == "exact");
     compose_.set("uHasUnoccluded", needsUnoccluded);

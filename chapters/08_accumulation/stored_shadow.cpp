@@ -8,8 +8,10 @@
 namespace penumbra {
 
 GLenum sumFormat(const Capabilities& capabilities, const std::string& target) {
-    if (target == "8") return GL_RG8;
-    return target == "16f" || !capabilities.floatBlend ? GL_RG16F : GL_RG32F;
+    // Four channels for two sums: with two, Mesa 22.3's software renderer adds wrongly in blocks of texels
+    // that are covered in part.
+    if (target == "8") return GL_RGBA8;
+    return target == "16f" || !capabilities.floatBlend ? GL_RGBA16F : GL_RGBA32F;
 }
 
 // [begin:stored]
@@ -41,6 +43,7 @@ void StoredShadow::drawShadows(const Request& request, ShadowPasses& passes) {
     }
     if (!plan_.reached) {
         sums_.reset();
+        packed_.reset();
         masks_.reset();
         return;
     }
@@ -67,11 +70,25 @@ void StoredShadow::drawShadows(const Request& request, ShadowPasses& passes) {
 
 void StoredShadow::provideSums(const Request& request) {
     const AccumulationOptions& options = request.options;
-    const std::string target = options.method == "accumulate" ? options.target : "32f";
-    const GLenum format = sumFormat(request.frame.context->capabilities(), target);
-    if (!sums_ || sums_->size() != request.receiver.texels || sums_->format() != format)
-        sums_.emplace(request.receiver.texels, format, true);
-    if (options.method != "mask") masks_.reset();
+    const Capabilities& capabilities = request.frame.context->capabilities();
+    const glm::ivec2 texels = request.receiver.texels;
+    if (options.method == "mask") {
+        sums_.reset();
+        if (!packed_ || packed_->texels() != texels) packed_.emplace(texels, sumFormat(capabilities, "32f"));
+        return;
+    }
+    packed_.reset();
+    masks_.reset();
+    const GLenum format = sumFormat(capabilities, options.method == "accumulate" ? options.target : "32f");
+    if (!sums_ || sums_->size() != texels || sums_->format() != format) sums_.emplace(texels, format);
+}
+
+std::vector<glm::vec2> StoredShadow::readSums() const {
+    if (packed_) return packed_->read();
+    std::vector<glm::vec2> values;
+    if (sums_)
+        for (const glm::vec4& sum : sums_->read()) values.emplace_back(sum);
+    return values;
 }
 
 PointWeights StoredShadow::weightsOf(const Request& request) const {
@@ -87,7 +104,7 @@ void StoredShadow::addWeights(const Request& request, ShadowPasses& passes) {
     scale_ = weights.scale;
     const bool everywhere = !request.frame.skip || request.options.weights == "sum";
     passes.mask.resolve(request.receiver, plan_, weights.values, request.options.weights, everywhere, *masks_,
-                        *sums_);
+                        *packed_);
 }
 
 void StoredShadow::solve(const Request& request) {
@@ -96,11 +113,9 @@ void StoredShadow::solve(const Request& request) {
         exactIrradiance(request.receiver, request.lit, plan_.occluders.reaching, request.frame.skip);
     const std::vector<double> all = unoccludedIrradiance(request.receiver, request.lit);
     std::vector<float> values;
-    values.reserve(2 * all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        values.push_back(float(visible.values[i]));
-        values.push_back(float(all[i]));
-    }
+    values.reserve(4 * all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (const double value : {visible.values[i], all[i], 0.0, 0.0}) values.push_back(float(value));
     sums_->upload(values);
     request.frame.work["texels_solved"] += visible.shadowTexels;
     request.frame.work["triangle_tests"] += visible.triangleTests;
@@ -130,9 +145,9 @@ void StoredShadow::count(const Request& request) {
     // Once for each change: a timed frame does not read back.
     const std::string key = shadowKey_ + lightKey_ + (request.frame.skip ? "" : " all");
     if (plan_.reached && key != countedKey_) {
-        const std::vector<glm::vec4> sums = sums_->read();
+        const std::vector<glm::vec2> sums = readSums();
         mixed_ = std::count_if(sums.begin(), sums.end(),
-                               [](const glm::vec4& s) { return s.r > 0.0f && s.r < s.g; });
+                               [](const glm::vec2& s) { return s.x > 0.0f && s.x < s.y; });
     }
     countedKey_ = key;
     work["texels_mixed"] += plan_.reached ? mixed_ : 0;

@@ -34,8 +34,12 @@ class StoredShadow {
     GLuint unoccluded(const Request& request);
 
     const ShadowPlan& plan() const { return plan_; }
-    /// Null unless something reaches between light and receiver.
+    /// Of the methods accumulate and exact; null unless something reaches between light and receiver.
     const TexelTarget* sums() const { return sums_ ? &*sums_ : nullptr; }
+    /// Of the method mask, likewise.
+    const PackedSums* packedSums() const { return packed_ ? &*packed_ : nullptr; }
+    /// (seen, all) of each texel, row 0 at v = 0; empty where nothing reaches in between. Waits for the GPU.
+    std::vector<glm::vec2> readSums() const;
     const MaskLayers* masks() const { return masks_ ? &*masks_ : nullptr; }
     /// Of the weights in `sums`, see PointWeights.
     double weightScale() const { return scale_; }
@@ -52,6 +56,7 @@ class StoredShadow {
 
     ShadowPlan plan_;
     std::optional<TexelTarget> sums_, unoccluded_;
+    std::optional<PackedSums> packed_;
     std::optional<MaskLayers> masks_;
     std::string shadowKey_, lightKey_, unoccludedKey_, countedKey_;
     double scale_ = 1.0;

@@ -19,11 +19,6 @@ Transfer transferOf(GLenum format) {
             return {GL_RED, GL_UNSIGNED_BYTE};
         case GL_R32F:
             return {GL_RED, GL_FLOAT};
-        case GL_RG8:
-            return {GL_RG, GL_UNSIGNED_BYTE};
-        case GL_RG16F:
-        case GL_RG32F:
-            return {GL_RG, GL_FLOAT};
         case GL_RGBA8:
             return {GL_RGBA, GL_UNSIGNED_BYTE};
         case GL_R32UI:
@@ -40,21 +35,36 @@ void readTexelByTexel(GLenum target) {
     glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
+/// To the bound framebuffer.
+void attach(const GlTexture& texture, const glm::ivec2& size, GLenum format, GLenum attachment) {
+    const Transfer transfer = transferOf(format);
+    glBindTexture(GL_TEXTURE_2D, texture.id());
+    glTexImage2D(GL_TEXTURE_2D, 0, GLint(format), size.x, size.y, 0, transfer.format, transfer.type, nullptr);
+    readTexelByTexel(GL_TEXTURE_2D);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.id(), 0);
+}
+
+void attachDepth(const GlRenderbuffer& depth, const glm::ivec2& size) {
+    glBindRenderbuffer(GL_RENDERBUFFER, depth.id());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, size.x, size.y);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.id());
+}
+
+/// RGBA of the colour attachment that is read from.
+std::vector<glm::vec4> readTexels(const glm::ivec2& size) {
+    std::vector<glm::vec4> values(std::size_t(size.x) * std::size_t(size.y));
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, values.data());
+    return values;
+}
+
 }  // namespace
 
 TexelTarget::TexelTarget(const glm::ivec2& size, GLenum format, bool withDepth)
     : size_(size), format_(format), withDepth_(withDepth) {
-    const Transfer transfer = transferOf(format);
-    glBindTexture(GL_TEXTURE_2D, texture_.id());
-    glTexImage2D(GL_TEXTURE_2D, 0, GLint(format), size.x, size.y, 0, transfer.format, transfer.type, nullptr);
-    readTexelByTexel(GL_TEXTURE_2D);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.id(), 0);
-    if (withDepth) {
-        glBindRenderbuffer(GL_RENDERBUFFER, depth_.id());
-        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, size.x, size.y);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
-    }
+    attach(texture_, size, format, GL_COLOR_ATTACHMENT0);
+    if (withDepth) attachDepth(depth_, size);
     requireCompleteFramebuffer("a texture of light");
 }
 
@@ -79,11 +89,47 @@ void TexelTarget::upload(const std::vector<float>& values) const {
 }
 
 std::vector<glm::vec4> TexelTarget::read() const {
-    std::vector<glm::vec4> values(std::size_t(size_.x) * std::size_t(size_.y));
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT, values.data());
-    return values;
+    return readTexels(size_);
+}
+
+PackedSums::PackedSums(const glm::ivec2& texels, GLenum format) : texels_(texels) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+    attach(seen_, fragments(), format, GL_COLOR_ATTACHMENT0);
+    attach(all_, fragments(), format, GL_COLOR_ATTACHMENT1);
+    attachDepth(depth_, fragments());
+    const GLenum both[2] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glDrawBuffers(2, both);
+    requireCompleteFramebuffer("sums of light");
+}
+
+void PackedSums::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+    glViewport(0, 0, fragments().x, fragments().y);
+}
+
+void PackedSums::clear(float sum, float depth) const {
+    bind();
+    const glm::vec4 value(sum);
+    glClearBufferfv(GL_COLOR, 0, &value.x);
+    glClearBufferfv(GL_COLOR, 1, &value.x);
+    glDepthMask(GL_TRUE);
+    glClearBufferfv(GL_DEPTH, 0, &depth);
+}
+
+std::vector<glm::vec2> PackedSums::read() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    const std::vector<glm::vec4> seen = readTexels(fragments());
+    glReadBuffer(GL_COLOR_ATTACHMENT1);
+    const std::vector<glm::vec4> all = readTexels(fragments());
+    std::vector<glm::vec2> sums;
+    for (int y = 0; y < texels_.y; ++y)
+        for (int x = 0; x < texels_.x; ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(fragments().x) + std::size_t(x / 4);
+            sums.emplace_back(seen[i][x % 4], all[i][x % 4]);
+        }
+    return sums;
 }
 
 // [begin:mask-layers]

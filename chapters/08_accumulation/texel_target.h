@@ -34,6 +34,27 @@ class TexelTarget {
     GlFramebuffer framebuffer_;
 };
 
+/// The sums of --method mask: four texels of a row in one of each texture, with a depth that says which of
+/// them are mixed.
+class PackedSums {
+ public:
+    PackedSums(const glm::ivec2& texels, GLenum format);
+    void bind() const;
+    void clear(float sum, float depth) const;
+    GLuint seen() const { return seen_.id(); }  ///< of visible weights
+    GLuint all() const { return all_.id(); }    ///< of all weights
+    const glm::ivec2& texels() const { return texels_; }
+    glm::ivec2 fragments() const { return {(texels_.x + 3) / 4, texels_.y}; }
+    /// (seen, all) of each texel, row 0 at the bottom. Waits for the drawing to finish.
+    std::vector<glm::vec2> read() const;
+
+ private:
+    glm::ivec2 texels_;
+    GlTexture seen_, all_;
+    GlRenderbuffer depth_;
+    GlFramebuffer framebuffer_;
+};
+
 /// How bits get into a mask.
 enum class BitSetting {
     logicOp,  ///< R32UI, GL_OR: 32 light points in one draw call

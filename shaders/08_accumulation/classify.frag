@@ -4,23 +4,25 @@
 
 uniform int uPoints;
 
-layout(location = 0) out vec4 outSums;
+layout(location = 0) out vec4 outSeen;
+layout(location = 1) out vec4 outAll;
 
 // [begin:classify]
 void main() {
-    ivec2 texel = ivec2(gl_FragCoord.xy);
-    bool hidden = false, seen = false;
+    uvec4 hidden = uvec4(0u), seen = uvec4(0u);
+    bool mixed = false;
     // The loop ends as soon as it is known.
     int layers = (uPoints + 31) / 32;
-    for (int layer = 0; layer < layers && !(hidden && seen); ++layer) {
+    for (int layer = 0; layer < layers && !mixed; ++layer) {
         int points = uPoints - 32 * layer;
         uint live = points < 32 ? (1u << uint(points)) - 1u : 0xffffffffu;
-        uint word = maskWord(texel, layer) & live;
-        hidden = hidden || word != 0u;
-        seen = seen || word != live;
+        uvec4 words = fourWords(ivec2(gl_FragCoord.xy), layer);
+        hidden |= words & live;
+        seen |= ~words & live;
+        mixed = any(notEqual(min(hidden, 1u) & min(seen, 1u), uvec4(0u)));
     }
-    bool mixed = hidden && seen;
-    outSums = mixed ? vec4(0.0) : vec4(seen ? 1.0 : 0.0, 1.0, 0.0, 0.0);
+    outSeen = mixed ? vec4(0.0) : vec4(notEqual(seen, uvec4(0u)));
+    outAll = mixed ? vec4(0.0) : vec4(1.0);
     gl_FragDepth = mixed ? 1.0 : 0.0;
 }
 // [end:classify]
