@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "chapters/08_accumulation/exact_receiver.h"
+#include "chapters/08_accumulation/unoccluded_texture.h"
 #include "common/scene/find_scene.h"
 #include "common/scene/gltf_loader.h"
 
@@ -39,6 +40,19 @@ void unoccluded(benchmark::State& state) {
     countTexels(state, setting.receiver);
 }
 BENCHMARK(unoccluded)->Arg(512)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+
+/// The same for a texture of floats, where a plane may be interpolated.
+void unoccludedFloats(benchmark::State& state) {
+    const Setting setting("heckbert_herf", int(state.range(0)));
+    for (auto _ : state) benchmark::DoNotOptimize(unoccludedTexture(setting.receiver, setting.light()));
+    countTexels(state, setting.receiver);
+}
+BENCHMARK(unoccludedFloats)
+    ->Arg(256)
+    ->Arg(512)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
 
 void exact(benchmark::State& state, const char* scene, bool cull) {
     const Setting setting(scene, int(state.range(0)));

@@ -21,7 +21,8 @@ SOURCES = [
     for name in ("lambert_polygon", "cone_subtraction", "polygon_light", "shadow_polygon", "segment_test", "parallel",
                  "triangle_bvh", "exact_scene")] + [
     f"{CHAPTER}{name}.cpp"
-    for name in ("flat_polygons", "receiver", "light_points", "projection", "reach", "texel_blocks", "exact_receiver")]
+    for name in ("flat_polygons", "receiver", "light_points", "projection", "reach", "texel_blocks", "plane_light",
+                 "exact_receiver", "unoccluded_texture")]
 
 # name: (file, unit program that must fail, [(old, new), ...])
 MUTATIONS = {
@@ -63,13 +64,19 @@ MUTATIONS = {
     "OwnTrianglesShadow": (
         CHAPTER + "reach.cpp", "reach", [("-2.0 * 0x1p-24 * scale_", "0.0")]),
     "BlocksOverlap": (CHAPTER + "texel_blocks.cpp", "reach", [("middle[axis] += near[axis]", "middle[axis] += near[axis] - 1")]),
-    "EmissionCountsTwice": (CHAPTER + "exact_receiver.cpp", "exact_receiver", [("facingIrradiance(unit_, x)", "facingIrradiance(light_, x)")]),
+    "EmissionCountsTwice": (CHAPTER + "plane_light.cpp", "exact_receiver", [("facingIrradiance(unit_, x)", "facingIrradiance(light_, x)")]),
     "NoCosine": (
-        CHAPTER + "exact_receiver.cpp", "exact_receiver",
+        CHAPTER + "plane_light.cpp", "exact_receiver",
         [("* std::max(0.0, glm::dot(n_, directionToLight(unit_, x)))", "")]),
-    "LightsShineFromBelow": (CHAPTER + "exact_receiver.cpp", "exact_receiver", [("isAbove_ = isAbove_ &&", "isAbove_ = true ||")]),
+    "LightsShineFromBelow": (CHAPTER + "plane_light.cpp", "exact_receiver", [("isAbove_ = isAbove_ &&", "isAbove_ = true ||")]),
     "OccludersBeyondALamp": (
-        CHAPTER + "exact_receiver.cpp", "exact_receiver", [("light_.type == LightType::directional;", "true;")]),
+        CHAPTER + "plane_light.cpp", "exact_receiver", [("light_.type == LightType::directional;", "true;")]),
+    "InterpolatedAnyway": (
+        CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("<= 2e-8 * exact", "<= 1.0")]),
+    "AcrossTheLightsPlane": (
+        CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("!(value > 0.0)", "false"), ("<= 2e-8 * exact", "<= 1.0")]),
+    "OddTexelsAreLeftOut": (
+        CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("std::min(column, texels.x - tile)", "column / tile * tile * (column + tile <= texels.x)")]),
 }
 
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "chapters/08_accumulation/unoccluded_texture.h"
 #include "common/scene/light.h"
 #include "common/truth/exact_scene.h"
 #include "common/truth/polygon_light.h"
@@ -113,6 +114,32 @@ TEST(AccumulationExact, UnoccludedIsLambertsFormulaToTheBit) {
             }
     }
     EXPECT_GT(dark, 1000);  // horizons and backs were among them
+}
+
+TEST(AccumulationExact, InterpolatedTexturesAreWithinFloatRounding) {
+    Random random(8);
+    double worst = 0.0;
+    int dark = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        const Receiver receiver = random.receiver({10 + random.below(90), 10 + random.below(90)});
+        const Light light = random.lightNear(receiver);
+        const std::vector<double> exact = unoccludedIrradiance(receiver, light);
+        const std::vector<float> floats = unoccludedTexture(receiver, light);
+        ASSERT_EQ(floats.size(), exact.size());
+        for (std::size_t i = 0; i < exact.size(); ++i) {
+            if (exact[i] > 1e-30) worst = std::max(worst, std::abs(floats[i] / exact[i] - 1.0));
+            if (exact[i] == 0.0) {
+                ASSERT_EQ(floats[i], 0.0f);
+            }
+            dark += exact[i] == 0.0;
+        }
+    }
+    EXPECT_LT(worst, 1e-7);
+    EXPECT_GT(dark, 1000);
+    RecordProperty("worst", std::to_string(worst));
+    const std::vector<double> exact = unoccludedIrradiance(figureReceiver(256), squareLight());
+    const std::vector<float> floats = unoccludedTexture(figureReceiver(256), squareLight());
+    for (std::size_t i = 0; i < exact.size(); ++i) ASSERT_NEAR(floats[i] / exact[i], 1.0, 6.2e-8);
 }
 
 TEST(AccumulationExact, UmbraIsExactlyDark) {
