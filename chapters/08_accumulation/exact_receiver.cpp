@@ -57,7 +57,7 @@ ExactIrradiance exactIrradiance(const Receiver& receiver, const Light& light,
     parallelRows((receiver.texels.y + band - 1) / band, [&](int i) {
         const int rows = std::min(band, receiver.texels.y - i * band);
         if (cull)
-            visitBlocks(receiver, light, occluders, {block, 0.0, i * band, rows}, render);
+            visitBlocks(receiver, light, occluders, {block, i * band, rows}, render);
         else
             render({{0, i * band}, {receiver.texels.x, rows}, occluders});
     });

@@ -44,6 +44,8 @@ const TexelTarget& MapPass::run(const Frame& frame, const ShadowOptions& options
     glDepthFunc(GL_LESS);
     setCamera(camera_, frame);
     drawSeen(camera_);
+    const float none[4] = {0.0f, 0.0f, 0.0f, 0.0f};  // a shader without an output leaves anything there
+    glClearBufferfv(GL_COLOR, 0, none);
     for (const LightPoint& point : points) add(frame, options, pointOf(light, point), drawSeen);
     // [end:shadow-maps]
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);

@@ -1,7 +1,6 @@
 #include "chapters/08_accumulation/texel_blocks.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "chapters/08_accumulation/reach.h"
@@ -17,7 +16,7 @@ class Visitor {
         : receiver_(receiver), light_(light), request_(request), visit_(visit) {}
 
     void visit(const glm::ivec2& first, const glm::ivec2& size, std::span<const Triangle> occluders) const {
-        const Reach reach(corners(first, size), receiver_.normal, light_);
+        const Reach reach(texelCorners(receiver_, first, size, 0.0), receiver_.normal, light_);
         std::vector<Triangle> reaching;
         if (!reach.empty())
             for (const Triangle& t : occluders)
@@ -38,15 +37,6 @@ class Visitor {
     }
 
  private:
-    /// Of the parallelogram of the centres, with the margin around it.
-    std::array<glm::dvec3, 4> corners(const glm::ivec2& first, const glm::ivec2& size) const {
-        const glm::dvec2 texel = 1.0 / glm::dvec2(receiver_.texels);
-        const glm::dvec2 lower = (glm::dvec2(first) + 0.5 - request_.margin) * texel;
-        const glm::dvec2 upper = (glm::dvec2(first + size) - 0.5 + request_.margin) * texel;
-        return {receiver_.at(lower), receiver_.at({upper.x, lower.y}), receiver_.at(upper),
-                receiver_.at({lower.x, upper.y})};
-    }
-
     const Receiver& receiver_;
     const Light& light_;
     const BlockRequest& request_;
@@ -54,6 +44,15 @@ class Visitor {
 };
 
 }  // namespace
+
+std::array<glm::dvec3, 4> texelCorners(const Receiver& receiver, const glm::ivec2& first,
+                                       const glm::ivec2& size, double margin) {
+    const glm::dvec2 texel = 1.0 / glm::dvec2(receiver.texels);
+    const glm::dvec2 lower = (glm::dvec2(first) + 0.5 - margin) * texel;
+    const glm::dvec2 upper = (glm::dvec2(first + size) - 0.5 + margin) * texel;
+    return {receiver.at(lower), receiver.at({upper.x, lower.y}), receiver.at(upper),
+            receiver.at({lower.x, upper.y})};
+}
 
 void visitBlocks(const Receiver& receiver, const Light& light, std::span<const Triangle> occluders,
                  const BlockRequest& request, const std::function<void(const TexelBlock&)>& visit) {

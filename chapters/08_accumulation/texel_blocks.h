@@ -1,6 +1,7 @@
 // A receiver's texels in blocks, each with the triangles that reach between it and the light.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <glm/glm.hpp>
 #include <span>
@@ -9,6 +10,10 @@
 #include "common/truth/cone_subtraction.h"
 
 namespace penumbra {
+
+/// The corners of a block of texels: of the parallelogram of their centres, and `margin` texels around it.
+std::array<glm::dvec3, 4> texelCorners(const Receiver& receiver, const glm::ivec2& first,
+                                       const glm::ivec2& size, double margin);
 
 struct TexelBlock {
     glm::ivec2 first{0}, size{0};         ///< texels
