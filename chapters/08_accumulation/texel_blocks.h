@@ -22,7 +22,6 @@ struct TexelBlock {
 
 struct BlockRequest {
     int blockTexels = 8;  ///< edge of the smallest block, aligned to multiples of itself
-    double margin = 0.0;  ///< texels around the centres that count as part of a block
     int firstRow = 0;     ///< a multiple of blockTexels
     int rows = 0;         ///< 0: all
 };

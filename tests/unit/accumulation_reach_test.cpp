@@ -224,7 +224,7 @@ TEST(AccumulationReach, BlocksCoverEveryTexelOnce) {
         for (int i = 0; i < 4; ++i) triangles.push_back(random.triangleNear(receiver, light));
         std::vector<int> visits(std::size_t(receiver.texels.x) * std::size_t(receiver.texels.y), 0);
         for (int first = 0; first < receiver.texels.y; first += 16)
-            visitBlocks(receiver, light, triangles, {8, 0.0, first, std::min(16, receiver.texels.y - first)},
+            visitBlocks(receiver, light, triangles, {8, first, std::min(16, receiver.texels.y - first)},
                         [&](const TexelBlock& block) {
                             EXPECT_TRUE(block.occluders.empty() || std::max(block.size.x, block.size.y) <= 8);
                             for (int j = 0; j < block.size.y; ++j)
