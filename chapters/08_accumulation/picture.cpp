@@ -30,8 +30,8 @@ int viewNumber(const std::string& view) {
 Picture::Picture()
     : other_("08_accumulation/picture.vert", "08_accumulation/other.frag"),
       received_("08_accumulation/picture.vert", "08_accumulation/received.frag"),
-      dark_(glm::ivec2(1), GL_RGBA8) {
-    dark_.clear(glm::vec4(0.0f));
+      dark_(glm::ivec2(1), GL_RGBA32F) {
+    dark_.upload({0.0f, 0.0f, 0.0f, 1.0f});
 }
 
 void Picture::setView(Program& program, const Frame& frame, const AccumulationOptions& options) {
@@ -98,7 +98,7 @@ void Picture::setTriangles(const Light& light) {
         triangles_.emplace(glm::ivec2(3, std::max(1, count)), GL_RGBA32F);
     corners.resize(std::size_t(12) * std::size_t(std::max(1, count)));
     triangles_->upload(corners);
-    other_.setTexture("uLightTriangles", GL_TEXTURE_2D, triangles_->texture());
+    other_.setTexture("uLightTriangles", GL_TEXTURE_2D, triangles_->id());
     other_.set("uTriangleCount", count);
     other_.set("uRadiance", glm::vec3(light.emission));
 }
@@ -118,7 +118,7 @@ void Picture::drawReceivers(const Frame& frame, const AccumulationOptions& optio
     glEnable(GL_DEPTH_TEST);
     // A side that is no receiver gets no light. It is drawn first, and both sides have the same depths.
     glDepthFunc(GL_LEQUAL);
-    received_.setTexture("uReceived", GL_TEXTURE_2D, dark_.texture());
+    received_.setTexture("uReceived", GL_TEXTURE_2D, dark_.id());
     for (const Receiver& receiver : received.receivers()) drawReceiver(frame, receiver);
     glEnable(GL_CULL_FACE);
     for (std::size_t i = 0; i < received.receivers().size(); ++i) {

@@ -25,8 +25,8 @@ class Picture {
 
     Program other_, received_;
     MapPass maps_;
-    std::optional<TexelTarget> triangles_;
-    TexelTarget dark_;  ///< 1 texel: of the side of a receiver that no light arrives at
+    std::optional<TexelTexture> triangles_;
+    TexelTexture dark_;  ///< 1 texel: of the side of a receiver that no light arrives at
 };
 
 }  // namespace penumbra

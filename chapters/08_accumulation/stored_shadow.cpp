@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "chapters/08_accumulation/exact_receiver.h"
+#include "chapters/08_accumulation/unoccluded_texture.h"
 #include "common/app/pass_timer.h"
 
 namespace penumbra {
@@ -115,7 +116,8 @@ void StoredShadow::solve(const Request& request) {
     std::vector<float> values;
     values.reserve(4 * all.size());
     for (std::size_t i = 0; i < all.size(); ++i)
-        for (const double value : {visible.values[i], all[i], 0.0, 0.0}) values.push_back(float(value));
+        for (const double value : {visible.values[i], double(all[i]), 0.0, 0.0})
+            values.push_back(float(value));
     sums_->upload(values);
     request.frame.work["texels_solved"] += visible.shadowTexels;
     request.frame.work["triangle_tests"] += visible.triangleTests;
@@ -124,14 +126,13 @@ void StoredShadow::solve(const Request& request) {
 GLuint StoredShadow::unoccluded(const Request& request) {
     const std::string key = request.options.shadowKey(request.frame.seed) + request.options.lightPart;
     if (unoccluded_ && key == unoccludedKey_ && request.frame.skip && !request.frame.renderMapsAgain)
-        return unoccluded_->texture();
+        return unoccluded_->id();
     const PassScope scope(request.frame.passTimer, "unoccluded");
     unoccludedKey_ = key;
-    const std::vector<double> values = unoccludedIrradiance(request.receiver, request.lit);
     if (!unoccluded_ || unoccluded_->size() != request.receiver.texels)
         unoccluded_.emplace(request.receiver.texels, GL_R32F);
-    unoccluded_->upload(std::vector<float>(values.begin(), values.end()));
-    return unoccluded_->texture();
+    unoccluded_->upload(unoccludedTexture(request.receiver, request.lit));
+    return unoccluded_->id();
 }
 
 void StoredShadow::count(const Request& request) {

@@ -55,7 +55,8 @@ class StoredShadow {
     void provideSums(const Request& request);
 
     ShadowPlan plan_;
-    std::optional<TexelTarget> sums_, unoccluded_;
+    std::optional<TexelTarget> sums_;
+    std::optional<TexelTexture> unoccluded_;
     std::optional<PackedSums> packed_;
     std::optional<MaskLayers> masks_;
     std::string shadowKey_, lightKey_, unoccludedKey_, countedKey_;

@@ -35,15 +35,6 @@ void readTexelByTexel(GLenum target) {
     glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-/// To the bound framebuffer.
-void attach(const GlTexture& texture, const glm::ivec2& size, GLenum format, GLenum attachment) {
-    const Transfer transfer = transferOf(format);
-    glBindTexture(GL_TEXTURE_2D, texture.id());
-    glTexImage2D(GL_TEXTURE_2D, 0, GLint(format), size.x, size.y, 0, transfer.format, transfer.type, nullptr);
-    readTexelByTexel(GL_TEXTURE_2D);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.id(), 0);
-}
-
 void attachDepth(const GlRenderbuffer& depth, const glm::ivec2& size) {
     glBindRenderbuffer(GL_RENDERBUFFER, depth.id());
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, size.x, size.y);
@@ -60,17 +51,31 @@ std::vector<glm::vec4> readTexels(const glm::ivec2& size) {
 
 }  // namespace
 
+TexelTexture::TexelTexture(const glm::ivec2& size, GLenum format) : size_(size), format_(format) {
+    const Transfer transfer = transferOf(format);
+    glBindTexture(GL_TEXTURE_2D, texture_.id());
+    glTexImage2D(GL_TEXTURE_2D, 0, GLint(format), size.x, size.y, 0, transfer.format, transfer.type, nullptr);
+    readTexelByTexel(GL_TEXTURE_2D);
+}
+
+void TexelTexture::upload(const std::vector<float>& values) const {
+    glBindTexture(GL_TEXTURE_2D, texture_.id());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexImage2D(GL_TEXTURE_2D, 0, GLint(format_), size_.x, size_.y, 0, transferOf(format_).format, GL_FLOAT,
+                 values.data());
+}
+
 TexelTarget::TexelTarget(const glm::ivec2& size, GLenum format, bool withDepth)
-    : size_(size), format_(format), withDepth_(withDepth) {
+    : color_(size, format), withDepth_(withDepth) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-    attach(texture_, size, format, GL_COLOR_ATTACHMENT0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.id(), 0);
     if (withDepth) attachDepth(depth_, size);
     requireCompleteFramebuffer("a texture of light");
 }
 
 void TexelTarget::bind() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-    glViewport(0, 0, size_.x, size_.y);
+    glViewport(0, 0, size().x, size().y);
 }
 
 void TexelTarget::clear(const glm::vec4& value, float depth) const {
@@ -81,22 +86,16 @@ void TexelTarget::clear(const glm::vec4& value, float depth) const {
     glClearBufferfv(GL_DEPTH, 0, &depth);
 }
 
-void TexelTarget::upload(const std::vector<float>& values) const {
-    glBindTexture(GL_TEXTURE_2D, texture_.id());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexImage2D(GL_TEXTURE_2D, 0, GLint(format_), size_.x, size_.y, 0, transferOf(format_).format, GL_FLOAT,
-                 values.data());
-}
-
 std::vector<glm::vec4> TexelTarget::read() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-    return readTexels(size_);
+    return readTexels(size());
 }
 
-PackedSums::PackedSums(const glm::ivec2& texels, GLenum format) : texels_(texels) {
+PackedSums::PackedSums(const glm::ivec2& texels, GLenum format)
+    : texels_(texels), seen_(fragments(), format), all_(fragments(), format) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-    attach(seen_, fragments(), format, GL_COLOR_ATTACHMENT0);
-    attach(all_, fragments(), format, GL_COLOR_ATTACHMENT1);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, seen_.id(), 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, all_.id(), 0);
     attachDepth(depth_, fragments());
     const GLenum both[2] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     glDrawBuffers(2, both);

@@ -8,28 +8,40 @@
 
 namespace penumbra {
 
-/// A texture of `format`, read texel by texel, and the framebuffer that draws into it. Throws Error if it
-/// cannot be rendered to.
-class TexelTarget {
+/// A texture of `format`, read texel by texel.
+class TexelTexture {
  public:
-    TexelTarget(const glm::ivec2& size, GLenum format, bool withDepth = false);
-    /// Makes it the target of drawing, and the viewport its size.
-    void bind() const;
-    void clear(const glm::vec4& value, float depth = 1.0f) const;
+    TexelTexture(const glm::ivec2& size, GLenum format);
     /// Fills it from the CPU: as many floats a texel as the format has channels, row 0 at the bottom.
     void upload(const std::vector<float>& values) const;
-    /// All texels as RGBA, row 0 at the bottom. Waits for the drawing to finish.
-    std::vector<glm::vec4> read() const;
-    GLuint texture() const { return texture_.id(); }
-    GLuint framebuffer() const { return framebuffer_.id(); }
+    GLuint id() const { return texture_.id(); }
     const glm::ivec2& size() const { return size_; }
     GLenum format() const { return format_; }
 
  private:
     glm::ivec2 size_;
     GLenum format_;
-    bool withDepth_;
     GlTexture texture_;
+};
+
+/// One that is drawn into, with its framebuffer. Throws Error if the format cannot be rendered to. Making one
+/// leaves it bound.
+class TexelTarget {
+ public:
+    TexelTarget(const glm::ivec2& size, GLenum format, bool withDepth = false);
+    /// Makes it the target of drawing, and the viewport its size.
+    void bind() const;
+    void clear(const glm::vec4& value, float depth = 1.0f) const;
+    void upload(const std::vector<float>& values) const { color_.upload(values); }
+    /// All texels as RGBA, row 0 at the bottom. Waits for the drawing to finish.
+    std::vector<glm::vec4> read() const;
+    GLuint texture() const { return color_.id(); }
+    const glm::ivec2& size() const { return color_.size(); }
+    GLenum format() const { return color_.format(); }
+
+ private:
+    TexelTexture color_;
+    bool withDepth_;
     GlRenderbuffer depth_;
     GlFramebuffer framebuffer_;
 };
@@ -50,7 +62,7 @@ class PackedSums {
 
  private:
     glm::ivec2 texels_;
-    GlTexture seen_, all_;
+    TexelTexture seen_, all_;
     GlRenderbuffer depth_;
     GlFramebuffer framebuffer_;
 };
