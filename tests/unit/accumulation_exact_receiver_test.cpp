@@ -20,8 +20,8 @@ using namespace accumulation_scenes;
 
 constexpr double pi = std::numbers::pi;
 
-double at(const ExactIrradiance& exact, const Receiver& receiver, int column, int row) {
-    return exact.values[std::size_t(row) * std::size_t(receiver.texels.x) + std::size_t(column)];
+double at(const std::vector<double>& values, const Receiver& receiver, int column, int row) {
+    return values[std::size_t(row) * std::size_t(receiver.texels.x) + std::size_t(column)];
 }
 
 /// One texel whose centre is `x`, on the figure's plane.
@@ -109,7 +109,7 @@ TEST(AccumulationExact, UnoccludedIsLambertsFormulaToTheBit) {
             for (int column = 0; column < 9; ++column) {
                 const double expected =
                     pi * formFactor(receiver.texelCentre(column, row), receiver.normal, light.polygons[0]);
-                EXPECT_EQ(values[std::size_t(row * 9 + column)], expected);
+                EXPECT_EQ(at(values, receiver, column, row), expected);
                 dark += expected == 0.0;
             }
     }
@@ -213,9 +213,8 @@ TEST(AccumulationExact, TwoSidedLightsAreTwoLights) {
         EXPECT_EQ(unoccludedIrradiance(ceiling, down)[i], 0.0);
         EXPECT_GT(below[i], 0.05);
     }
-    for (int i = 0; i < 8; ++i)
-        for (int j = 0; j < 8; ++j)
-            EXPECT_NEAR(below[std::size_t(8 * i + j)], above[std::size_t(8 * j + i)], 1e-15);
+    for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t j = 0; j < 8; ++j) EXPECT_NEAR(below[8 * i + j], above[8 * j + i], 1e-15);
 }
 
 TEST(AccumulationExact, SeveralPolygonsAddUp) {
@@ -253,13 +252,13 @@ TEST(AccumulationExact, LightsWithoutAnAreaCastHardShadows) {
                 const dvec3 x = receiver.texelCentre(column, row);
                 const dvec3 target =
                     light.type == LightType::directional ? x - 100.0 * light.direction : light.position;
-                const double value = lit[std::size_t(row * 13 + column)];
+                const double value = at(lit, receiver, column, row);
                 EXPECT_NEAR(value,
                             std::max(0.0, glm::dot(receiver.normal, directionToLight(light, x))) *
                                 facingIrradiance(light, x).z,
                             1e-15);
                 const bool hidden = truth.occluded(x, noTriangle, target);
-                EXPECT_EQ(at(exact, receiver, column, row), hidden ? 0.0 : value) << trial;
+                EXPECT_EQ(at(exact.values, receiver, column, row), hidden ? 0.0 : value) << trial;
                 dark += hidden;
             }
     }

@@ -51,7 +51,8 @@ TEST(AccumulationFigure, ItsExactIrradiance) {
         for (int column = 0; column < 128; ++column) {
             const double expected = truth.visibleFormFactor(floor.texelCentre(column, row), floor.normal,
                                                             light.polygons[0], light.part);
-            EXPECT_NEAR(exact.values[std::size_t(128 * row + column)] / std::numbers::pi, expected, 1e-15);
+            EXPECT_NEAR(exact.values[128 * std::size_t(row) + std::size_t(column)] / std::numbers::pi,
+                        expected, 1e-15);
         }
 }
 

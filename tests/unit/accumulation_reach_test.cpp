@@ -59,7 +59,7 @@ TEST(AccumulationReach, WhatMissesNeverShadows) {
         missed += misses;
         shadows += any;
         if (misses || any) continue;
-        for (int i = 0; i < 64 && !any; ++i) any = isShadowed(receiver.at({(i % 8) / 7.0, (i / 8) / 7.0}));
+        for (int i = 0; i < 64 && !any; ++i) any = isShadowed(receiver.at(glm::dvec2(i % 8, i >> 3) / 7.0));
         needless += !any;
     }
     EXPECT_GT(missed, 20000);         // it culls

@@ -13,10 +13,8 @@ namespace {
 
 using namespace accumulation_scenes;
 using test_meshes::addBox;
-using test_meshes::addPart;
 using test_meshes::addQuad;
 using test_meshes::addSphere;
-using test_meshes::Place;
 using test_meshes::scaledAndMoved;
 
 /// A scene with a light above that faces down, and nothing else yet.
