@@ -41,7 +41,6 @@ void Picture::setView(Program& program, const Frame& frame, const AccumulationOp
     program.set("uView", viewNumber(frame.view));
 }
 
-// [begin:picture]
 void Picture::draw(const Frame& frame, const AccumulationOptions& options, const ReceivedLight* received) {
     std::vector<int> lights = options.chosenLights(frame.scene);
     if (frame.view == "visibility" || frame.view == "work") lights.resize(1);  // of the first
@@ -50,7 +49,6 @@ void Picture::draw(const Frame& frame, const AccumulationOptions& options, const
     for (std::size_t i = 0; i < lights.size(); ++i) drawOthers(frame, options, others, lights[i], i == 0);
     if (received) drawReceivers(frame, options, *received);
 }
-// [end:picture]
 
 void Picture::drawOthers(const Frame& frame, const AccumulationOptions& options, const OtherSurfaces& others,
                          int index, bool first) {

@@ -131,7 +131,6 @@ std::vector<glm::vec2> PackedSums::read() const {
     return sums;
 }
 
-// [begin:mask-layers]
 MaskLayers::MaskLayers(const glm::ivec2& size, int points, BitSetting setting)
     : size_(size), points_(points), layers_((points + 31) / 32), setting_(setting) {
     const GLenum format = setting == BitSetting::logicOp ? GL_R32UI : GL_RGBA8;
@@ -150,7 +149,6 @@ MaskLayers::MaskLayers(const glm::ivec2& size, int points, BitSetting setting)
     }
     requireCompleteFramebuffer("a mask of light points");
 }
-// [end:mask-layers]
 
 void MaskLayers::bindCleared(int layer) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());

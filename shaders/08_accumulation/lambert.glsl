@@ -12,7 +12,6 @@ float edgeOf(vec3 n, vec3 a, vec3 b) {
     return l > 0.0 ? atan(l, dot(a, b)) * dot(n, c) / l : 0.0;
 }
 
-// [begin:lambert]
 // Edges are cut at the receiver's horizon, and the gap between the two cuts is closed along it.
 float triangleIrradiance(vec3 n, vec3 corners[3]) {
     float sum = 0.0;
@@ -35,7 +34,6 @@ float triangleIrradiance(vec3 n, vec3 corners[3]) {
     }
     return sum + (cut ? edgeOf(n, leaves, enters) : 0.0);
 }
-// [end:lambert]
 
 // Unoccluded irradiance at x on a surface with unit normal n, from whatever light there is.
 vec3 unoccludedIrradiance(vec3 x, vec3 n) {
