@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
-#include "chapters/08_accumulation/occluder_tree.h"
 #include "chapters/08_accumulation/projection.h"
-#include "chapters/08_accumulation/texel_blocks.h"
-#include "common/truth/parallel.h"
 
 namespace penumbra {
 
@@ -233,28 +229,6 @@ Occluders occludersBetween(const Scene& scene, const Receiver& receiver, const L
         found.near = std::clamp(0.9 * smallest, nearestFraction, 0.5);
     }
     return found;
-}
-
-BlockMap mixedBlocks(const Receiver& receiver, const Light& light, std::span<const Triangle> occluders,
-                     int blockTexels) {
-    BlockMap map;
-    map.blockTexels = blockTexels;
-    map.blocks = (receiver.texels + blockTexels - 1) / blockTexels;
-    map.mixed.assign(std::size_t(map.blocks.x) * std::size_t(map.blocks.y), 0);
-    const OccluderTree tree(occluders);
-    std::atomic<std::int64_t> mixedTexels = 0;
-    parallelRows(map.blocks.y, [&](int row) {
-        for (int column = 0; column < map.blocks.x; ++column) {
-            const glm::ivec2 first = blockTexels * glm::ivec2(column, row);
-            const glm::ivec2 size = glm::min(glm::ivec2(blockTexels), receiver.texels - first);
-            const Reach reach(texelCorners(receiver, first, size, 0.5), receiver.normal, light);
-            if (reach.empty() || !tree.reachesInto(reach)) continue;
-            map.mixed[std::size_t(row) * std::size_t(map.blocks.x) + std::size_t(column)] = 1;
-            mixedTexels += std::int64_t(size.x) * size.y;
-        }
-    });
-    map.mixedTexels = mixedTexels;
-    return map;
 }
 
 }  // namespace penumbra

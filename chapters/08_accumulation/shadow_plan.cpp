@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "chapters/08_accumulation/block_map.h"
+
 namespace penumbra {
 
 namespace {

@@ -3,6 +3,7 @@
 //   build/release/bin/exact_receiver_bench [--benchmark_filter=NAME]
 #include <benchmark/benchmark.h>
 
+#include "chapters/08_accumulation/block_map.h"
 #include "chapters/08_accumulation/exact_receiver.h"
 #include "chapters/08_accumulation/unoccluded_texture.h"
 #include "common/scene/find_scene.h"

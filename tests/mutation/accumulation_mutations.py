@@ -21,7 +21,7 @@ SOURCES = [
     for name in ("lambert_polygon", "cone_subtraction", "polygon_light", "shadow_polygon", "segment_test", "parallel",
                  "triangle_bvh", "exact_scene")] + [
     f"{CHAPTER}{name}.cpp"
-    for name in ("flat_polygons", "receiver", "light_points", "projection", "reach", "occluder_tree", "texel_blocks", "plane_light",
+    for name in ("flat_polygons", "receiver", "light_points", "projection", "reach", "occluder_tree", "block_map", "texel_blocks", "plane_light",
                  "exact_receiver", "unoccluded_texture")]
 
 # name: (file, unit program that must fail, [(old, new), ...])
@@ -59,11 +59,11 @@ MUTATIONS = {
     "OnePolygonMissedIsEnough": (CHAPTER + "reach.cpp", "reach", [("std::all_of(pieces_", "std::any_of(pieces_")]),
     "InwardIsOutward": (CHAPTER + "reach.cpp", "reach", [("glm::cross(b, a)", "glm::cross(a, b)")]),
     "BoxesAreTheirCentres": (CHAPTER + "reach.cpp", "reach", [("+ glm::dot(glm::abs(plane.inward), half)", "")]),
-    "CentresForTexels": (CHAPTER + "reach.cpp", "reach", [("first, size, 0.5)", "first, size, 0.0)")]),
+    "CentresForTexels": (CHAPTER + "block_map.cpp", "blocks", [("first, size, 0.5)", "first, size, 0.0)")]),
     "NearCutsOccluders": (CHAPTER + "reach.cpp", "reach", [("0.9 * smallest", "1.1 * smallest")]),
     "OwnTrianglesShadow": (
         CHAPTER + "reach.cpp", "reach", [("-2.0 * 0x1p-24 * scale_", "0.0")]),
-    "BlocksOverlap": (CHAPTER + "texel_blocks.cpp", "reach", [("middle[axis] += near[axis]", "middle[axis] += near[axis] - 1")]),
+    "BlocksOverlap": (CHAPTER + "texel_blocks.cpp", "blocks", [("middle[axis] += near[axis]", "middle[axis] += near[axis] - 1")]),
     "EmissionCountsTwice": (CHAPTER + "plane_light.cpp", "exact_receiver", [("facingIrradiance(unit_, x)", "facingIrradiance(light_, x)")]),
     "NoCosine": (
         CHAPTER + "plane_light.cpp", "exact_receiver",
@@ -72,7 +72,7 @@ MUTATIONS = {
     "OccludersBeyondALamp": (
         CHAPTER + "plane_light.cpp", "exact_receiver", [("light_.type == LightType::directional;", "true;")]),
     "HalfOfTheTree": (
-        CHAPTER + "occluder_tree.cpp", "reach",
+        CHAPTER + "occluder_tree.cpp", "blocks",
         [("return reachesInto(reach, 2 * node) || reachesInto(reach, 2 * node + 1);", "return reachesInto(reach, 2 * node);")]),
     "InterpolatedAnyway": (
         CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("<= 2e-8 * exact", "<= 1.0")]),

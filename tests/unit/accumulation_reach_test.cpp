@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "chapters/08_accumulation/projection.h"
-#include "chapters/08_accumulation/texel_blocks.h"
 #include "common/truth/polygon_light.h"
 #include "common/truth/segment_test.h"
 #include "tests/unit/accumulation_scenes.h"
@@ -213,77 +212,6 @@ TEST(AccumulationReach, AReceiversOwnTrianglesNeverShadowIt) {
     Receiver stranger = receivers[0];  // were they of another part, they would still lie in its plane
     stranger.triangles.clear();
     EXPECT_TRUE(occludersBetween(scene, stranger, scene.lights[0]).reaching.empty());
-}
-
-TEST(AccumulationReach, BlocksCoverEveryTexelOnce) {
-    Random random(5);
-    for (int trial = 0; trial < 300; ++trial) {
-        const Receiver receiver = random.receiver({1 + random.below(70), 1 + random.below(70)});
-        const Light light = random.lightNear(receiver);
-        std::vector<Triangle> triangles;
-        for (int i = 0; i < 4; ++i) triangles.push_back(random.triangleNear(receiver, light));
-        std::vector<int> visits(std::size_t(receiver.texels.x) * std::size_t(receiver.texels.y), 0);
-        for (int first = 0; first < receiver.texels.y; first += 16)
-            visitBlocks(receiver, light, triangles, {8, first, std::min(16, receiver.texels.y - first)},
-                        [&](const TexelBlock& block) {
-                            EXPECT_TRUE(block.occluders.empty() || std::max(block.size.x, block.size.y) <= 8);
-                            for (int j = 0; j < block.size.y; ++j)
-                                for (int i = 0; i < block.size.x; ++i)
-                                    ++visits[std::size_t(block.first.y + j) * std::size_t(receiver.texels.x) +
-                                             std::size_t(block.first.x + i)];
-                        });
-        for (const int count : visits) ASSERT_EQ(count, 1);
-    }
-}
-
-// Whole texels: between the corners of those in unmixed blocks and the light's nothing stands.
-TEST(AccumulationReach, UnmixedBlocksAreLit) {
-    Random random(6);
-    int lit = 0, mixedBlocksSeen = 0;
-    for (int trial = 0; trial < 400; ++trial) {
-        const Receiver receiver = random.receiver({40, 30});
-        const Light light = random.lightNear(receiver);
-        const std::vector<Triangle> triangles = {random.triangleNear(receiver, light),
-                                                 random.triangleNear(receiver, light)};
-        const BlockMap map = mixedBlocks(receiver, light, triangles, 8);
-        ASSERT_EQ(map.blocks, glm::ivec2(5, 4));
-        std::int64_t mixedTexels = 0;
-        for (int row = 0; row < 30; ++row)
-            for (int column = 0; column < 40; ++column) {
-                if (map.isMixed(column, row)) {
-                    ++mixedTexels;
-                    continue;
-                }
-                const dvec3 x =
-                    receiver.at({(column + random.below(2)) / 40.0, (row + random.below(2)) / 30.0});
-                for (const dvec3& corner : light.polygons[0]) {
-                    const dvec3 p = glm::mix(corner, light.position, 1e-6);
-                    if (receiver.height(p) <= 1e-6 || glm::dot(light.direction, x - p) <= 0.0) continue;
-                    ++lit;
-                    for (const Triangle& t : triangles)
-                        EXPECT_NE(crossTriangle({x, p}, t), Crossing::inside) << trial;
-                }
-            }
-        EXPECT_EQ(mixedTexels, map.mixedTexels);
-        mixedBlocksSeen += mixedTexels > 0;
-    }
-    EXPECT_GT(lit, 100000);
-    EXPECT_GT(mixedBlocksSeen, 50);
-}
-
-TEST(AccumulationReach, TheFiguresMixedTexels) {
-    const Triangle t = figureTriangle;
-    const BlockMap map = mixedBlocks(figureReceiver(512), squareLight(), {&t, 1}, 16);
-    int shadowed = 0;
-    const Receiver floor = figureReceiver(512);
-    for (int row = 0; row < 512; ++row)
-        for (int column = 0; column < 512; ++column) {
-            const dvec3 x = floor.texelCentre(column, row);
-            if (visible(x, floor, squareLight(), t) == whole(x, floor, squareLight())) continue;
-            ++shadowed;
-            ASSERT_TRUE(map.isMixed(column, row));
-        }
-    EXPECT_LT(double(map.mixedTexels), 1.06 * shadowed);  // blocks of 16 lose little
 }
 
 }  // namespace
