@@ -39,7 +39,7 @@ class Program {
     void set(const std::string& name, const glm::ivec2& value);
     void set(const std::string& name, const glm::mat3& value);
     void set(const std::string& name, const glm::mat4& value);
-    /// The first elements of an array; as many as it has, at most, and not none.
+    /// The first elements of an array; at most as many as it has.
     void set(const std::string& name, const std::vector<glm::vec4>& values);
     /// Binds `texture` to the next free unit of this program and points the sampler at it. `samplerObject`:
     /// how it is read, in place of the texture's own parameters; 0: by those.

@@ -40,7 +40,7 @@ void upload(GLint at, const glm::mat4& v) {
     glUniformMatrix4fv(at, 1, GL_FALSE, glm::value_ptr(v));
 }
 void upload(GLint at, const std::vector<glm::vec4>& v) {
-    glUniform4fv(at, GLsizei(v.size()), glm::value_ptr(v.front()));
+    if (!v.empty()) glUniform4fv(at, GLsizei(v.size()), glm::value_ptr(v.front()));
 }
 
 GLenum typeOf(const UniformValue& value) {
