@@ -37,14 +37,6 @@ ChapterHarness receiverHarness(const Settings& settings = {}) {
     return harness;
 }
 
-/// A floor of 2 x 2 metres, seen from straight above (what stands on it does not hide it: the camera is
-/// below).
-SmallScene floorScene() {
-    SmallScene scene;
-    scene.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}).flatCamera({0, 0.012, 0}, {0, 0, 0}, 2.0);
-    return scene;
-}
-
 /// Root mean square difference of visibility where the exact one is neither 0 nor 1.
 double penumbraRmse(const FloatImage& actual, const TruthImage& truth) {
     double sum = 0.0, count = 0.0;
@@ -108,12 +100,6 @@ TEST(Chapter08Error, FollowsTheReferenceTable) {
     }
 }
 
-/// A floor, a lamp above, and a sheet so large that some of the floor sees nothing of the lamp.
-Scene umbraScene() {
-    return withAreaLight(floorScene().quad({-0.6, 0.5, 0.4}, {1, 0, 0}, {0, 0, -0.9}).take(),
-                         squareLight({0, 1.5, 0}, {0, -1, 0}, 0.6));
-}
-
 // Lit and dark are exact, with eight points as with a thousand.
 TEST(Chapter08Error, NoneWhereFullyLitOrDark) {
     const Scene scene = umbraScene();
@@ -163,6 +149,20 @@ TEST(Chapter08Error, ShadowMapsAreTheSameLight) {
     // 0.0054 of the points, and half a map texel (2.4 m / 1024) of each edge in 256, which is less.
     expectImage("08_accumulation/heckbert_herf/shadow-maps", harness.scalar("visibility", receiverSize),
                 truth.value, truth.mask, {.rmse = 0.0054, .absBias = 0.001});
+}
+
+// What is no receiver gets Lambert's formula from a shader, in float, cut at the horizon there: 1e-4 of the
+// largest, what the arc tangent of a shading language may be off by.
+TEST(Chapter08Error, TheShadersClosedFormIsLamberts) {
+    for (const auto& light :
+         {squareLight({0, 1.5, 0}, {0, -1, 0}, 0.8), squareLight({0, 0.1, -1.4}, {0, 0.2, 1}, 0.8)}) {
+        const Scene scene = withAreaLight(floorScene().take(), light);
+        ChapterHarness harness = harnessOf(scene, {{"method", "shadow-maps"}, {"samples", "4"}});
+        const glm::ivec2 size(64, 64);
+        const TruthImage truth = harness.truth("irradiance", size);
+        const float largest = *std::max_element(truth.value.values.begin(), truth.value.values.end());
+        EXPECT_LT(largestDifference(harness.picture("irradiance", size, 3), truth.value), 1e-4 * largest);
+    }
 }
 
 // --- the same result by other ways -------------------------------------------------------------------------
@@ -226,6 +226,18 @@ TEST(Chapter08Ways, WhatIsSkippedIsCounted) {
     harness.scalar("visibility", receiverSize);
     EXPECT_GT(harness.work.at("occluders_drawn"), 64);
     EXPECT_EQ(harness.work.at("texels_in_reach"), harness.work.at("texels"));
+}
+
+// Red is what has points that disagree; seen straight from above, a texel is a pixel. The triangle's own
+// texture is all blue.
+TEST(Chapter08Ways, RedTexelsAreTheMixedOnes) {
+    ChapterHarness harness = receiverHarness();
+    const FloatImage picture = harness.picture("work", receiverSize, 3);
+    int red = 0;
+    for (std::size_t i = 0; i < picture.values.size(); i += 3)
+        red += picture.values[i] > 5.0f * picture.values[i + 1];
+    EXPECT_NEAR(red, double(harness.work.at("texels_mixed")), 2.0 * receiverSize.x);  // the outermost row
+    EXPECT_GT(red, 30000);
 }
 
 TEST(Chapter08Ways, EsSetsTheSameBits) {
@@ -322,47 +334,6 @@ TEST(Chapter08Relation, SeveralLightsAddUp) {
 
 // --- cases that must be right ------------------------------------------------------------------------------
 
-struct Hard {
-    std::string name;
-    Scene scene;
-};
-
-std::vector<Hard> hardCases() {
-    const auto above = squareLight({0, 1.5, 0}, {0, -1, 0}, 0.8);
-    std::vector<Hard> all;
-    const auto add = [&](const char* name, SmallScene scene, const std::vector<dvec3>& light) {
-        all.push_back({name, withAreaLight(scene.take(), light)});
-    };
-    add("light partly below the horizon", floorScene().quad({-0.3, 0, -0.2}, {0.6, 0, 0}, {0, 0.3, 0}),
-        squareLight({0, 0.1, -1.4}, {0, 0.2, 1}, 0.8));
-    add("light point in the plane of the receiver",
-        floorScene().quad({-0.3, 0, -0.2}, {0.6, 0, 0}, {0, 0.3, 0}),
-        squareLight({0, 0, -1.4}, {0, 0, 1}, 0.8));
-    add("occluder crosses the receiver", floorScene().quad({-0.4, -0.3, 0.1}, {0.8, 0, 0}, {0.1, 0.7, -0.2}),
-        above);
-    add("occluder touches the receiver", floorScene().quad({-0.4, 0, 0.1}, {0.8, 0, 0}, {0, 0.4, 0.2}),
-        above);
-    add("occluder passes through the light's plane",
-        floorScene().quad({0.1, 0.4, -0.5}, {0, 0, 1}, {0.9, 1.9, 0}),
-        squareLight({-0.2, 1.2, 0}, {0, -1, 0}, 0.5));
-    add("degenerate triangles",
-        floorScene()
-            .part({{dvec3(-0.4, 0.5, -0.4), dvec3(-0.4, 0.5, -0.4), dvec3(0.4, 0.5, 0.4)},
-                   {dvec3(-0.4, 0.5, 0), dvec3(0, 0.5, 0), dvec3(0.4, 0.5, 0)}},
-                  false)
-            .quad({-0.2, 0.6, 0.2}, {0.4, 0, 0}, {0, 0, -0.4}),
-        above);
-    add("overlapping occluders",
-        floorScene()
-            .quad({-0.4, 0.5, 0.3}, {0.7, 0, 0}, {0, 0, -0.6})
-            .quad({-0.1, 0.8, 0.1}, {0.5, 0.1, 0}, {0, 0, -0.5})
-            .box({-0.5, 0, -0.5}, {-0.2, 0.3, -0.1}),
-        above);
-    add("light that shines away", floorScene().quad({-0.2, 0.6, 0.2}, {0.4, 0, 0}, {0, 0, -0.4}),
-        squareLight({0, 1.5, 0}, {0, 1, 0}, 0.8));
-    return all;
-}
-
 /// Tests a picture of the floor's irradiance against the exact one: root mean square error over the largest.
 void expectExactLight(const std::string& name, const Scene& scene, const std::string& method, double bound) {
     ChapterHarness harness =
@@ -377,12 +348,12 @@ void expectExactLight(const std::string& name, const Scene& scene, const std::st
 // A thousand points are off by 0.0017 of the unoccluded light in a penumbra; edges that touch the floor are
 // hard, and wrong in the half texel beside them.
 TEST(Chapter08Cases, ManyPointsAreTheExactLight) {
-    for (const Hard& c : hardCases()) expectExactLight(c.name, c.scene, "mask", 0.004);
+    for (const HardCase& c : hardCases()) expectExactLight(c.name, c.scene, "mask", 0.004);
 }
 
 // A float for each texel, of pixels whose centres are the texels' but for rounding.
 TEST(Chapter08Cases, ExactIsTheExactLight) {
-    for (const Hard& c : hardCases()) expectExactLight(c.name, c.scene, "exact", 1e-3);
+    for (const HardCase& c : hardCases()) expectExactLight(c.name, c.scene, "exact", 1e-3);
 }
 
 TEST(Chapter08Cases, ATwoSidedLightIsTwoLights) {
@@ -427,16 +398,6 @@ TEST(Chapter08Cases, TurnedByAnOddAngle) {
 }
 
 // --- that the bounds can fail ------------------------------------------------------------------------------
-
-/// A large tilted light close to the floor, so that no weight is like another; an occluder close to the
-/// light.
-Scene mutationScene() {
-    return withAreaLight(floorScene()
-                             .quad({-0.5, 0.2, 0.3}, {0.8, 0, 0}, {0, 0, -0.7})
-                             .quad({0.35, 0.62, -0.3}, {0.25, 0.05, 0}, {0, 0, 0.5})
-                             .take(),
-                         squareLight({0.5, 0.75, 0.0}, {-0.55, -1, 0}, 1.1));
-}
 
 double errorOf(const Scene& scene, bool skip) {
     ChapterHarness harness = harnessOf(scene, {{"samples", "1024"}, {"texels-per-metre", "64"}});

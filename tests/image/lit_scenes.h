@@ -2,6 +2,7 @@
 #pragma once
 
 #include <numeric>
+#include <string>
 
 #include "common/math/polygon.h"
 #include "common/math/sampling.h"
@@ -65,6 +66,72 @@ inline Scene turned(Scene scene, const glm::dvec3& axis, double angle) {
         camera.up = turn(camera.up);
     }
     return scene;
+}
+
+/// A floor of 2 x 2 metres, seen from straight above (what stands on it does not hide it: the camera is
+/// below).
+inline SmallScene floorScene() {
+    SmallScene scene;
+    scene.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}).flatCamera({0, 0.012, 0}, {0, 0, 0}, 2.0);
+    return scene;
+}
+
+/// A floor, a lamp above, and a sheet so large that some of the floor sees nothing of the lamp.
+inline Scene umbraScene() {
+    return withAreaLight(floorScene().quad({-0.6, 0.5, 0.4}, {1, 0, 0}, {0, 0, -0.9}).take(),
+                         squareLight({0, 1.5, 0}, {0, -1, 0}, 0.6));
+}
+
+/// What a projection of occluders could get wrong.
+struct HardCase {
+    std::string name;
+    Scene scene;
+};
+
+inline std::vector<HardCase> hardCases() {
+    const auto above = squareLight({0, 1.5, 0}, {0, -1, 0}, 0.8);
+    std::vector<HardCase> all;
+    const auto add = [&](const char* name, SmallScene scene, const std::vector<dvec3>& light) {
+        all.push_back({name, withAreaLight(scene.take(), light)});
+    };
+    add("light partly below the horizon", floorScene().quad({-0.3, 0, -0.2}, {0.6, 0, 0}, {0, 0.3, 0}),
+        squareLight({0, 0.1, -1.4}, {0, 0.2, 1}, 0.8));
+    add("light point in the plane of the receiver",
+        floorScene().quad({-0.3, 0, -0.2}, {0.6, 0, 0}, {0, 0.3, 0}),
+        squareLight({0, 0, -1.4}, {0, 0, 1}, 0.8));
+    add("occluder crosses the receiver", floorScene().quad({-0.4, -0.3, 0.1}, {0.8, 0, 0}, {0.1, 0.7, -0.2}),
+        above);
+    add("occluder touches the receiver", floorScene().quad({-0.4, 0, 0.1}, {0.8, 0, 0}, {0, 0.4, 0.2}),
+        above);
+    add("occluder passes through the light's plane",
+        floorScene().quad({0.1, 0.4, -0.5}, {0, 0, 1}, {0.9, 1.9, 0}),
+        squareLight({-0.2, 1.2, 0}, {0, -1, 0}, 0.5));
+    add("degenerate triangles",
+        floorScene()
+            .part({{glm::dvec3(-0.4, 0.5, -0.4), glm::dvec3(-0.4, 0.5, -0.4), glm::dvec3(0.4, 0.5, 0.4)},
+                   {glm::dvec3(-0.4, 0.5, 0), glm::dvec3(0, 0.5, 0), glm::dvec3(0.4, 0.5, 0)}},
+                  false)
+            .quad({-0.2, 0.6, 0.2}, {0.4, 0, 0}, {0, 0, -0.4}),
+        above);
+    add("overlapping occluders",
+        floorScene()
+            .quad({-0.4, 0.5, 0.3}, {0.7, 0, 0}, {0, 0, -0.6})
+            .quad({-0.1, 0.8, 0.1}, {0.5, 0.1, 0}, {0, 0, -0.5})
+            .box({-0.5, 0, -0.5}, {-0.2, 0.3, -0.1}),
+        above);
+    add("light that shines away", floorScene().quad({-0.2, 0.6, 0.2}, {0.4, 0, 0}, {0, 0, -0.4}),
+        squareLight({0, 1.5, 0}, {0, 1, 0}, 0.8));
+    return all;
+}
+
+/// A large tilted light close to the floor, so that no weight is like another; an occluder close to the
+/// light.
+inline Scene mutationScene() {
+    return withAreaLight(floorScene()
+                             .quad({-0.5, 0.2, 0.3}, {0.8, 0, 0}, {0, 0, -0.7})
+                             .quad({0.35, 0.62, -0.3}, {0.25, 0.05, 0}, {0, 0, 0.5})
+                             .take(),
+                         squareLight({0.5, 0.75, 0.0}, {-0.55, -1, 0}, 1.1));
 }
 
 }  // namespace penumbra
