@@ -91,7 +91,7 @@ struct HardCase {
 inline std::vector<HardCase> hardCases() {
     const auto above = squareLight({0, 1.5, 0}, {0, -1, 0}, 0.8);
     std::vector<HardCase> all;
-    const auto add = [&](const char* name, SmallScene scene, const std::vector<dvec3>& light) {
+    const auto add = [&](const char* name, SmallScene scene, const std::vector<glm::dvec3>& light) {
         all.push_back({name, withAreaLight(scene.take(), light)});
     };
     add("light partly below the horizon", floorScene().quad({-0.3, 0, -0.2}, {0.6, 0, 0}, {0, 0.3, 0}),
