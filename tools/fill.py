@@ -12,7 +12,7 @@ import tables
 from markers import PageError
 
 PICTURE = re.compile(r"^(.*?)\s+->\s+(\S+\.png)\s*\|\s*(.*)$", re.DOTALL)
-PLOT = re.compile(r"^(\S+)\s+->\s+(\S+\.svg)\s*\|\s*(.*)$", re.DOTALL)
+PLOT = re.compile(r"^(\S+)(?:\s+by\s+(.+?))?\s+->\s+(\S+\.svg)\s*\|\s*(.*)$", re.DOTALL)
 PICTURES_IN_A_ROW = 3
 PICTURE_TOLERANCE = 2.0  # root mean square, levels of 255
 
@@ -156,13 +156,18 @@ def value(marker, page):
 def plot(marker, page):
     parts = PLOT.match(marker.argument)
     if not parts:
-        raise PageError(f"{marker.where}: a plot is `TABLE -> FILE.svg | text`, not `{marker.argument}`")
-    name, file, words = parts[1], parts[2], " ".join(parts[3].split())
+        raise PageError(f"{marker.where}: a plot is `TABLE [by COLUMN] -> FILE.svg | text`, not `{marker.argument}`")
+    name, across, file, words = parts[1], parts[2], parts[3], " ".join(parts[4].split())
     if name not in page.tables:
         raise PageError(f"{marker.where}: no table above in this page is called {name}; name it in its first line")
     described, rows = page.tables[name]
+    headings = [column.heading for column in described.columns]
+    if across and across not in headings:
+        raise PageError(f"{marker.where}: table {name} has no column {across}, only {', '.join(headings)}")
     try:
-        fresh = plots.logLog([column.heading for column in described.columns], rows, words)
+        if across:
+            headings, rows = plots.across(headings, rows, across)
+        fresh = plots.logLog(headings, rows, words)
     except plots.PlotError as error:
         raise PageError(f"{marker.where}: {error}") from None
     target = page.root / "docs" / file

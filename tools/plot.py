@@ -1,4 +1,4 @@
-"""Plots of tables in pages: one line for each column over the row labels, both axes logarithmic, as SVG.
+"""Plots of tables in pages: one line for each column over the row labels or a column, both axes logarithmic, as SVG.
 
 The same cells give the same bytes, so that a page and its plot can be compared without running anything.
 """
@@ -59,11 +59,22 @@ def line(points, colour, width):
     return f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="{width}"/>'
 
 
+def across(headings, rows, heading):
+    """Headings and rows with column `heading` in place of the labels, in its order. Throws PlotError."""
+    at = headings.index(heading)
+    order = [at] + [i for i in range(1, len(headings)) if i != at]
+    values = numbers([row[at] for row in rows], f"column {heading}")
+    ordered = sorted(range(len(rows)), key=lambda i: values[i])
+    return [headings[i] for i in order], [[rows[r][i] for i in order] for r in ordered]
+
+
 def logLog(headings, rows, title):
     """`headings`: of the label column, then of each line; `rows`: their cells. Throws PlotError."""
     if len(rows) < 2 or len(headings) < 2:
         raise PlotError("a plot needs two rows and a column beside the labels")
     xs = numbers([row[0] for row in rows], f"the labels ({headings[0]})")
+    if min(xs) == max(xs):
+        raise PlotError(f"a plot needs two different values of {headings[0]}")
     lines = [numbers([row[i] for row in rows], f"column {headings[i]}") for i in range(1, len(headings))]
     low, high = min(map(min, lines)) / 1.2, max(map(max, lines)) * 1.2
     x, y = Axis(min(xs), max(xs), LEFT, WIDTH - RIGHT), Axis(low, high, HEIGHT - BOTTOM, TOP)

@@ -9,9 +9,6 @@
 
 namespace penumbra {
 
-namespace {
-
-/// A point of the whole light: its polygon is chosen by area with u.x, which is stretched again.
 glm::dvec3 pointOnLight(const Light& light, glm::dvec2 u) {
     double below = 0.0;
     for (const auto& polygon : light.polygons) {
@@ -24,6 +21,8 @@ glm::dvec3 pointOnLight(const Light& light, glm::dvec2 u) {
     }
     return light.position;
 }
+
+namespace {
 
 std::vector<LightSample> sampleArea(const Light& light, const Hit& hit, int count, std::uint32_t seed) {
     // [begin:lambert]

@@ -16,6 +16,10 @@ struct LightSample {
     glm::dvec3 facingIrradiance{0.0};  ///< on a plane that faces the sample, nothing in between, W/m^2
 };
 
+/// A point of an area light from the unit square, preserving area: its polygon is chosen by u.x, which is
+/// then stretched again.
+glm::dvec3 pointOnLight(const Light& light, glm::dvec2 u);
+
 /// Point, spot, directional: the one sample there is. Area: `count` Owen-scrambled points, whose pattern
 /// `seed` chooses, scaled so that together they give the irradiance of Lambert's formula exactly (a ratio
 /// estimator: Heitz, Hill & McGuire 2018, I3D). So what nothing shadows has no noise, however few samples

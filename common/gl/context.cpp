@@ -79,6 +79,7 @@ Capabilities findCapabilities(Api api, const Features& features, GetGlProcAddres
     capabilities.api = api;
     capabilities.clipControl = glClipControl != nullptr;
     capabilities.floatColorBuffer = features.has(30, {"GL_EXT_color_buffer_float"});
+    capabilities.floatBlend = capabilities.floatColorBuffer && features.has(30, {"GL_EXT_float_blend"});
     capabilities.multiDraw = glMultiDrawElements != nullptr;
     capabilities.clampToBorder = features.has(
         13, {"GL_EXT_texture_border_clamp", "GL_OES_texture_border_clamp", "GL_NV_texture_border_clamp"});

@@ -25,6 +25,7 @@ struct Capabilities {
     Api api = Api::desktop;
     bool clipControl = false;       ///< glClipControl: reversed-Z is possible
     bool floatColorBuffer = false;  ///< RGBA32F and R32F can be rendered to
+    bool floatBlend = false;        ///< ... and blended into
     bool multiDraw = false;         ///< glMultiDrawElements
     bool clampToBorder = false;
     bool depthClamp = false;

@@ -12,10 +12,13 @@
     X(PFNGLBINDSAMPLERPROC, glBindSampler)                                       \
     X(PFNGLBINDTEXTUREPROC, glBindTexture)                                       \
     X(PFNGLBINDVERTEXARRAYPROC, glBindVertexArray)                               \
+    X(PFNGLBLENDFUNCPROC, glBlendFunc)                                           \
     X(PFNGLBUFFERDATAPROC, glBufferData)                                         \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, glCheckFramebufferStatus)                 \
     X(PFNGLCLEARPROC, glClear)                                                   \
     X(PFNGLCLEARBUFFERFVPROC, glClearBufferfv)                                   \
+    X(PFNGLCLEARBUFFERIVPROC, glClearBufferiv)                                   \
+    X(PFNGLCLEARBUFFERUIVPROC, glClearBufferuiv)                                 \
     X(PFNGLCLEARCOLORPROC, glClearColor)                                         \
     X(PFNGLCOMPILESHADERPROC, glCompileShader)                                   \
     X(PFNGLCREATEPROGRAMPROC, glCreateProgram)                                   \
@@ -35,11 +38,13 @@
     X(PFNGLDRAWARRAYSPROC, glDrawArrays)                                         \
     X(PFNGLDRAWBUFFERSPROC, glDrawBuffers)                                       \
     X(PFNGLDRAWELEMENTSPROC, glDrawElements)                                     \
+    X(PFNGLDRAWELEMENTSINSTANCEDPROC, glDrawElementsInstanced)                   \
     X(PFNGLENABLEPROC, glEnable)                                                 \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, glEnableVertexAttribArray)               \
     X(PFNGLFINISHPROC, glFinish)                                                 \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, glFramebufferRenderbuffer)               \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, glFramebufferTexture2D)                     \
+    X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, glFramebufferTextureLayer)               \
     X(PFNGLGENBUFFERSPROC, glGenBuffers)                                         \
     X(PFNGLGENFRAMEBUFFERSPROC, glGenFramebuffers)                               \
     X(PFNGLGENRENDERBUFFERSPROC, glGenRenderbuffers)                             \
@@ -67,6 +72,8 @@
     X(PFNGLSAMPLERPARAMETERIPROC, glSamplerParameteri)                           \
     X(PFNGLSCISSORPROC, glScissor)                                               \
     X(PFNGLSHADERSOURCEPROC, glShaderSource)                                     \
+    X(PFNGLSTENCILFUNCPROC, glStencilFunc)                                       \
+    X(PFNGLSTENCILOPPROC, glStencilOp)                                           \
     X(PFNGLTEXIMAGE2DPROC, glTexImage2D)                                         \
     X(PFNGLTEXIMAGE3DPROC, glTexImage3D)                                         \
     X(PFNGLTEXPARAMETERIPROC, glTexParameteri)                                   \
@@ -79,6 +86,7 @@
     X(PFNGLUNIFORMMATRIX3FVPROC, glUniformMatrix3fv)                             \
     X(PFNGLUNIFORMMATRIX4FVPROC, glUniformMatrix4fv)                             \
     X(PFNGLUSEPROGRAMPROC, glUseProgram)                                         \
+    X(PFNGLVERTEXATTRIBDIVISORPROC, glVertexAttribDivisor)                       \
     X(PFNGLVERTEXATTRIBPOINTERPROC, glVertexAttribPointer)                       \
     X(PFNGLVIEWPORTPROC, glViewport)
 

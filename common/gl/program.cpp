@@ -117,6 +117,9 @@ void Program::set(const std::string& name, const glm::mat3& value) {
 void Program::set(const std::string& name, const glm::mat4& value) {
     state_->uniforms.set(name, value);
 }
+void Program::set(const std::string& name, const std::vector<glm::vec4>& values) {
+    state_->uniforms.set(name, values);
+}
 
 void Program::setTexture(const std::string& sampler, GLenum target, GLuint texture, GLuint samplerObject) {
     state_->uniforms.setTexture(sampler, target, texture, samplerObject);

@@ -39,6 +39,8 @@ class Program {
     void set(const std::string& name, const glm::ivec2& value);
     void set(const std::string& name, const glm::mat3& value);
     void set(const std::string& name, const glm::mat4& value);
+    /// The first elements of an array; at most as many as it has.
+    void set(const std::string& name, const std::vector<glm::vec4>& values);
     /// Binds `texture` to the next free unit of this program and points the sampler at it. `samplerObject`:
     /// how it is read, in place of the texture's own parameters; 0: by those.
     void setTexture(const std::string& sampler, GLenum target, GLuint texture, GLuint samplerObject = 0);

@@ -39,10 +39,13 @@ void upload(GLint at, const glm::mat3& v) {
 void upload(GLint at, const glm::mat4& v) {
     glUniformMatrix4fv(at, 1, GL_FALSE, glm::value_ptr(v));
 }
+void upload(GLint at, const std::vector<glm::vec4>& v) {
+    if (!v.empty()) glUniform4fv(at, GLsizei(v.size()), glm::value_ptr(v.front()));
+}
 
 GLenum typeOf(const UniformValue& value) {
     static const GLenum types[] = {GL_INT,        GL_FLOAT,    GL_BOOL,       GL_FLOAT_VEC2, GL_FLOAT_VEC3,
-                                   GL_FLOAT_VEC4, GL_INT_VEC2, GL_FLOAT_MAT3, GL_FLOAT_MAT4};
+                                   GL_FLOAT_VEC4, GL_INT_VEC2, GL_FLOAT_MAT3, GL_FLOAT_MAT4, GL_FLOAT_VEC4};
     return types[value.index()];
 }
 

@@ -5,13 +5,14 @@
 #include <map>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "common/gl/gl.h"
 
 namespace penumbra {
 
-using UniformValue =
-    std::variant<int, float, bool, glm::vec2, glm::vec3, glm::vec4, glm::ivec2, glm::mat3, glm::mat4>;
+using UniformValue = std::variant<int, float, bool, glm::vec2, glm::vec3, glm::vec4, glm::ivec2, glm::mat3,
+                                  glm::mat4, std::vector<glm::vec4>>;
 
 class ProgramUniforms {
  public:

@@ -28,7 +28,8 @@ const char* const esHeader =
     "precision highp sampler2DArrayShadow;\n"
     "precision highp isampler2D;\n"
     "precision highp usampler2D;\n"
-    "precision highp usampler3D;\n";
+    "precision highp usampler3D;\n"
+    "precision highp usampler2DArray;\n";
 
 /// The name the reader knows: from the folder above the root, "shaders/04_pcf/pcf.glsl".
 std::string displayName(const std::string& file) {
@@ -146,6 +147,7 @@ const GlslType glslTypes[] = {
     {"isampler2D", GL_INT_SAMPLER_2D},
     {"usampler2D", GL_UNSIGNED_INT_SAMPLER_2D},
     {"usampler3D", GL_UNSIGNED_INT_SAMPLER_3D},
+    {"usampler2DArray", GL_UNSIGNED_INT_SAMPLER_2D_ARRAY},
 };
 
 }  // namespace

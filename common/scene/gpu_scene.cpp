@@ -89,7 +89,7 @@ DrawCounts GpuScene::drawDepth(const DepthDraw& draw) const {
                               [&](std::uint32_t part) {
                                   return int(part) != draw.exceptPart && wanted(scene_->parts[part]);
                               }),
-                   counts);
+                   counts, draw.instances);
     };
     glBindVertexArray(depthArray_.id());
     if (!draw.cullClosed) {
@@ -113,19 +113,31 @@ DrawCounts GpuScene::drawShaded(Program& program, const VisibleClusters& visible
 
     DrawCounts counts;
     for (std::size_t i = 0; i < byMaterial.size(); ++i) {
-        if (byMaterial[i].clusters.empty()) continue;
-        const Material& material = scene_->materials[i];
-        const GlTexture& texture =
-            material.diffuseTexture >= 0 ? textures_[std::size_t(material.diffuseTexture)] : white_;
-        setMaterial(program, material, texture.id());
-        program.prepareToDraw();
-        glBindVertexArray(shadedArray_.id());
-        drawRanges(joinRanges(*scene_, byMaterial[i], [](std::uint32_t) { return true; }), counts);
+        if (!byMaterial[i].clusters.empty())
+            drawMaterial(program, int(i),
+                         joinRanges(*scene_, byMaterial[i], [](std::uint32_t) { return true; }), counts);
     }
     return counts;
 }
 
-void GpuScene::drawRanges(const std::vector<IndexRange>& ranges, DrawCounts& counts) const {
+DrawCounts GpuScene::drawShaded(Program& program, int part, const std::vector<IndexRange>& ranges) const {
+    DrawCounts counts;
+    drawMaterial(program, scene_->parts[std::size_t(part)].material, ranges, counts);
+    return counts;
+}
+
+void GpuScene::drawMaterial(Program& program, int index, const std::vector<IndexRange>& ranges,
+                            DrawCounts& counts) const {
+    const Material& material = scene_->materials[std::size_t(index)];
+    const GlTexture& texture =
+        material.diffuseTexture >= 0 ? textures_[std::size_t(material.diffuseTexture)] : white_;
+    setMaterial(program, material, texture.id());
+    program.prepareToDraw();
+    glBindVertexArray(shadedArray_.id());
+    drawRanges(ranges, counts);
+}
+
+void GpuScene::drawRanges(const std::vector<IndexRange>& ranges, DrawCounts& counts, int instances) const {
     if (ranges.empty()) return;
     std::vector<GLsizei> sizes;
     std::vector<const void*> offsets;
@@ -133,16 +145,20 @@ void GpuScene::drawRanges(const std::vector<IndexRange>& ranges, DrawCounts& cou
         sizes.push_back(GLsizei(3 * range.triangleCount));
         offsets.push_back(
             reinterpret_cast<const void*>(3 * sizeof(std::uint32_t) * std::size_t(range.firstTriangle)));
-        counts.triangles += range.triangleCount;
+        counts.triangles += std::size_t(range.triangleCount) * std::size_t(instances);
     }
-    if (capabilities_.multiDraw) {
+    if (capabilities_.multiDraw && instances == 1) {
         glMultiDrawElements(GL_TRIANGLES, sizes.data(), GL_UNSIGNED_INT, offsets.data(),
                             GLsizei(sizes.size()));
         ++counts.drawCalls;
         return;
     }
-    for (std::size_t i = 0; i < sizes.size(); ++i)
-        glDrawElements(GL_TRIANGLES, sizes[i], GL_UNSIGNED_INT, offsets[i]);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        if (instances == 1)
+            glDrawElements(GL_TRIANGLES, sizes[i], GL_UNSIGNED_INT, offsets[i]);
+        else
+            glDrawElementsInstanced(GL_TRIANGLES, sizes[i], GL_UNSIGNED_INT, offsets[i], instances);
+    }
     counts.drawCalls += sizes.size();
 }
 

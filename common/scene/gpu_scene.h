@@ -39,18 +39,25 @@ class GpuScene {
         bool frontFacesInstead =
             false;            ///< cull front faces of closed parts: chapter 03's front-face culling
         int exceptPart = -1;  ///< a light's own surface
+        int instances = 1;    ///< how often each triangle is drawn: gl_InstanceID tells which
     };
     DrawCounts drawDepth(const DepthDraw& draw) const;
+    /// What drawDepth draws from: a caller may add per-instance attributes from location 3 on.
+    GLuint depthArray() const { return depthArray_.id(); }
 
     /// Full attributes, one material at a time: sets the uniforms of shaders/common/material.glsl on
     /// `program` before each draw (uDiffuse, uSpecular, uShininess, uEmission, uDiffuseTexture, uHasTexture,
     /// uDoubleSided).
     DrawCounts drawShaded(Program& program, const VisibleClusters& visible) const;
+    /// The same for triangles of one part, whatever their clusters.
+    DrawCounts drawShaded(Program& program, int part, const std::vector<IndexRange>& ranges) const;
 
     const Scene& scene() const { return *scene_; }
 
  private:
-    void drawRanges(const std::vector<IndexRange>& ranges, DrawCounts& counts) const;
+    void drawMaterial(Program& program, int index, const std::vector<IndexRange>& ranges,
+                      DrawCounts& counts) const;
+    void drawRanges(const std::vector<IndexRange>& ranges, DrawCounts& counts, int instances = 1) const;
 
     const Scene* scene_;
     Capabilities capabilities_;

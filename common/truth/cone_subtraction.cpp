@@ -92,7 +92,8 @@ Plane planeOf(const Triangle& t) {
 
 /// Appends the cone over triangle `t` (relative to x), unless it can hide nothing of the light: beside the
 /// pyramid; degenerate; behind the light or part of its surface; or with x in its plane as far as doubles can
-/// tell (no surface shadows itself).
+/// tell (no surface shadows itself). So only triangles that do hide something have a say in the order in
+/// which pieces are summed, and leaving out others beforehand changes no bit of the result.
 void appendCone(const LightPyramid& pyramid, const Triangle& t, std::vector<Cone>& cones) {
     if (misses(pyramid, t)) return;
     const auto [normal, offset] = pyramid.wide ? planeOf<long double>(t) : planeOf<double>(t);
@@ -104,7 +105,8 @@ void appendCone(const LightPyramid& pyramid, const Triangle& t, std::vector<Cone
         sign * normal,
         sign * offset,
         t};
-    if (!isOutside(cone, pyramid.light, 3, tolerance)) cones.push_back(cone);
+    if (isOutside(cone, pyramid.light, 3, tolerance) || misses(cone, pyramid.light)) return;
+    cones.push_back(cone);
 }
 
 /// A piece that has grown many corners is halved along a diagonal, so that it always has room to be cut.

@@ -64,6 +64,15 @@ row {n = 4, 16}{n} | 00_a --samples {n}
 <!-- end -->
 <!-- plot: curve -> images/curve.svg | a curve -->
 <!-- end -->
+<!-- table: cost
+column method = label
+column cost = time.ms .1f
+column RMSE = error.rmse .3f
+row {m = none, derived}{m} | 00_a --method {m}
+-->
+<!-- end -->
+<!-- plot: cost by RMSE -> images/cost.svg | cost over error -->
+<!-- end -->
 
 It is off by <!-- value: errors | none | RMSE --><!-- end --> %.
 
@@ -184,6 +193,23 @@ class RefreshTest(TreeTest):
         self.expectStale("images/curve.svg", "curve")
         self.refreshed()
         self.assertEqual(self.read("docs/images/curve.svg"), before)
+
+    def testPlotsOverAColumn(self):
+        self.refreshed()
+        svg = self.read("docs/images/cost.svg")
+        self.assertIn(">RMSE</text>", svg)  # below the axis
+        self.assertIn(">cost</text>", svg)
+        self.assertEqual(svg.count("<polyline points"), 1 + 2 + svg.count('text-anchor="end"'))
+        left, right = (float(text) for text in (svg.index(">0.125<"), svg.index(">0.25<")))
+        self.assertLess(left, right)
+        for argument, said in (("cost by MSE", "no column MSE"), ("cost by method", "must be numbers")):
+            self.change("docs/00_a.md", "plot: cost by RMSE", f"plot: {argument}")
+            status, message = self.run_()
+            self.assertEqual(status, 1)
+            self.assertIn(said, message)
+            self.change("docs/00_a.md", f"plot: {argument}", "plot: cost by RMSE")
+        self.change("docs/00_a.md", "{m = none, derived}", "{m = a, b}")
+        self.assertIn("two different", self.run_()[1])
 
     def testSeesFigureTypedByHand(self):
         self.refreshed()

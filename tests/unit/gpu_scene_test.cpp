@@ -243,6 +243,39 @@ TEST_P(GpuSceneTest, VerticesOfOnePositionAreOneInTheDepthPass) {
     EXPECT_EQ(covered(depthMap({.visible = &all})), std::size_t(size) * size);
 }
 
+TEST_P(GpuSceneTest, InstancesAreTheSameTrianglesAgain) {
+    const VisibleClusters all = allClusters(scene_);
+    DrawCounts once, thrice;
+    const FloatImage one = depthMap({.visible = &all}, &once);
+    const FloatImage three = depthMap({.visible = &all, .instances = 3}, &thrice);
+    EXPECT_EQ(one, three);
+    EXPECT_EQ(thrice.triangles, 3 * once.triangles);
+}
+
+TEST_P(GpuSceneTest, TrianglesOfAPartAreDrawnAlone) {
+    SmallScene small;
+    small.quad({-2, -1, 0}, {2, 0, 0}, {0, 2, 0})
+        .quad({0, -1, 0}, {2, 0, 0}, {0, 2, 0})
+        .flatCamera({0, 0, 3}, {0, 0, 0}, 2.0);
+    scene_ = small.take();
+    clipFromWorld_ = clipFromWorld(scene_.cameras[0], 1.0);
+    const GpuScene gpu(scene_, capabilities());
+    RenderTarget target({size, size}, capabilities());
+    target.bind();
+    glDisable(GL_DEPTH_TEST);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    Program program("tests/attributes.vert", "tests/material.frag");
+    program.set("uClipFromWorld", glm::mat4(clipFromWorld_));
+    const DrawCounts drawn = gpu.drawShaded(program, 1, {{2, 1}});
+    EXPECT_EQ(drawn.triangles, 1u);
+    // The lower right half of the right quad, whose diagonal rises from (0, -1) to (2, 1).
+    const FloatImage picture = target.read(3);
+    EXPECT_EQ(picture.at(3 * size / 4 + 8, size - 8, 0), 0.8f);
+    EXPECT_EQ(picture.at(size / 2 + 8, size / 4, 0), 0.0f);
+    EXPECT_EQ(picture.at(size / 4, size / 2, 0), 0.0f);
+}
+
 TEST_P(GpuSceneTest, TheFirstRowOfATextureIsAtVZeroAndDecoded) {
     SmallScene small;
     small.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}).flatCamera({0, 0, 3}, {0, 0, 0}, 2.0);

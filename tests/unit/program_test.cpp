@@ -168,6 +168,18 @@ TEST_P(ProgramTest, EveryTypeOfUniformArrives) {
     EXPECT_EQ(draw(program), glm::vec4(3.5f, 7.0f, 24.0f, 32.0f));
 }
 
+TEST_P(ProgramTest, ArraysArriveFromTheirFirstElement) {
+    shaders_.write("u.frag",
+                   "uniform vec4 uPoints[3];\nout vec4 color;\n"
+                   "void main() { color = uPoints[0] + 10.0 * uPoints[1] + 100.0 * uPoints[2]; }\n");
+    Program program("full.vert", "u.frag");
+    program.set("uPoints", std::vector<glm::vec4>(3, glm::vec4(1.0f)));
+    EXPECT_EQ(draw(program), glm::vec4(111.0f));
+    program.set("uPoints", std::vector<glm::vec4>{glm::vec4(2.0f), glm::vec4(3.0f)});
+    EXPECT_EQ(draw(program), glm::vec4(132.0f)) << "the last keeps its value";
+    EXPECT_NE(errorOf([&] { program.set("uPoints", 1.0f); }), "");
+}
+
 TEST_P(ProgramTest, UniformMistakesAreErrors) {
     shaders_.write("u.frag",
                    "uniform float uUsed;\nuniform vec3 uUnused, uAlsoUnused;\n// uniform float uCommented;\n"

@@ -1,0 +1,114 @@
+#include "chapters/08_accumulation/received_light.h"
+
+#include <fmt/format.h>
+
+#include "common/app/pass_timer.h"
+
+namespace penumbra {
+
+ReceivedLight::ReceivedLight() : compose_("common/fullscreen.vert", "08_accumulation/compose.frag") {}
+
+void ReceivedLight::reset() {
+    receivers_.clear();
+    receiversKey_.clear();
+    shadows_.clear();
+    textures_.clear();
+    composed_.clear();
+}
+
+void ReceivedLight::findReceivers(const Frame& frame, const AccumulationOptions& options) {
+    const std::string key = fmt::format("{} {} {} {}", options.light, options.texelsPerMetre,
+                                        options.texelBudget, options.minimumArea);
+    if (key == receiversKey_) return;
+    reset();
+    receiversKey_ = key;
+    receivers_ = penumbra::findReceivers(frame.scene, options.receiverRequest(frame.scene));
+    textures_.resize(receivers_.size());
+    composed_.resize(receivers_.size());
+    for (const int light : options.chosenLights(frame.scene)) shadows_[light].resize(receivers_.size());
+}
+
+std::string ReceivedLight::composedKey(const AccumulationOptions& options, Output output,
+                                       std::size_t i) const {
+    std::string key = fmt::format("{} {}", options.lightKey(), int(output));
+    for (const auto& [light, shadows] : shadows_) key += fmt::format(" {}", shadows[i].revision());
+    return key;
+}
+
+void ReceivedLight::update(const Frame& frame, const AccumulationOptions& options, Output output) {
+    findReceivers(frame, options);
+    frame.work["occluders_drawn"] += 0;
+    const bool visibility = output != Output::irradiance;
+    for (std::size_t i = 0; i < receivers_.size(); ++i) {
+        std::vector<Light> lit;
+        bool arrives = false;
+        for (auto& [index, shadows] : shadows_) {
+            const Light& whole = frame.scene.lights[std::size_t(index)];
+            lit.push_back(options.lit(frame.scene, index));
+            shadows[i].update({frame, options, receivers_[i], whole, lit.back()}, passes_);
+            arrives = arrives || shadows[i].plan().receives;
+            if (visibility) break;  // of the first light
+        }
+        if (!arrives) {
+            textures_[i].reset();
+            continue;
+        }
+        const std::string key = composedKey(options, output, i);
+        if (key == composed_[i] && frame.skip && !frame.renderMapsAgain) continue;
+        composed_[i] = key;
+        const PassScope scope(frame.passTimer, "compose");
+        if (!textures_[i])
+            textures_[i].emplace(receivers_[i].texels, sumFormat(frame.context->capabilities(), "32f"));
+        textures_[i]->clear(glm::vec4(0.0f));
+        std::size_t k = 0;
+        for (auto& [index, shadows] : shadows_) {
+            if (k >= lit.size()) break;
+            const Light& whole = frame.scene.lights[std::size_t(index)];
+            compose({frame, options, receivers_[i], whole, lit[k]}, shadows[i], output, *textures_[i]);
+            ++k;
+        }
+    }
+    const bool relit = !lightKey_.empty() && lightKey_ != options.lightKey();
+    if (relit && frame.work["occluders_drawn"] == 0) frame.work["relit"] = 1;
+    lightKey_ = options.lightKey();
+    glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
+    glViewport(0, 0, frame.size.x, frame.size.y);
+}
+
+void ReceivedLight::compose(const StoredShadow::Request& request, StoredShadow& shadow, Output output,
+                            const TexelTarget& target) {
+    if (!shadow.plan().receives) return;
+    const bool sum = request.options.weights == "sum" && shadow.plan().reached;
+    const bool needsUnoccluded = output == Output::irradiance || sum;
+    const PackedSums* packed = shadow.packedSums();
+    compose_.setTexture("uSums", GL_TEXTURE_2D, shadow.sums() ? shadow.sums()->texture() : 0);
+    compose_.setTexture("uSeen", GL_TEXTURE_2D, packed ? packed->seen() : 0);
+    compose_.setTexture("uAll", GL_TEXTURE_2D, packed ? packed->all() : 0);
+    compose_.set("uPacked", packed != nullptr);
+    compose_.setTexture("uUnoccluded", GL_TEXTURE_2D, needsUnoccluded ? shadow.unoccluded(request) : 0);
+    compose_.set("uKnown", shadow.plan().reached ? 0 : 1);
+    compose_.set("uRatio", !sum || request.options.method == "exact");
+    compose_.set("uHasUnoccluded", needsUnoccluded);
+    compose_.set("uEmission", glm::vec3(request.lit.emission));
+    compose_.set("uOutput", int(output));
+    compose_.set("uInFront", heightInFrontOf(request.lit, request.receiver));
+    compose_.set("uWeightScale", float(shadow.weightScale()));
+    compose_.set("uTextureSize", glm::vec2(target.size()));
+    compose_.prepareToDraw();
+    target.bind();
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    triangle_.draw();
+    glDisable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ZERO);
+}
+
+std::vector<Program*> ReceivedLight::programs() {
+    std::vector<Program*> all = passes_.accumulate.programs(), masks = passes_.mask.programs();
+    all.insert(all.end(), masks.begin(), masks.end());
+    all.push_back(&compose_);
+    return all;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,46 @@
+// The textures of light: what each receiver gets from all lights together.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "chapters/08_accumulation/stored_shadow.h"
+
+namespace penumbra {
+
+class ReceivedLight {
+ public:
+    /// What a texel holds.
+    enum class Output { irradiance, visibility, work };
+
+    ReceivedLight();
+    /// Forgets everything: another scene.
+    void reset();
+    /// Finds the receivers (once), updates the shadows of each light on each, and composes.
+    void update(const Frame& frame, const AccumulationOptions& options, Output output);
+
+    const std::vector<Receiver>& receivers() const { return receivers_; }
+    /// Of receiver i; null: no light arrives there.
+    const TexelTarget* texture(std::size_t i) const { return textures_[i] ? &*textures_[i] : nullptr; }
+    /// Of the first light on receiver i.
+    const StoredShadow& shadow(std::size_t i) const { return shadows_.begin()->second[i]; }
+    std::vector<Program*> programs();
+
+ private:
+    void findReceivers(const Frame& frame, const AccumulationOptions& options);
+    void compose(const StoredShadow::Request& request, StoredShadow& shadow, Output output,
+                 const TexelTarget& target);
+    /// All that texture i is made from.
+    std::string composedKey(const AccumulationOptions& options, Output output, std::size_t i) const;
+
+    std::vector<Receiver> receivers_;
+    std::string receiversKey_, lightKey_;
+    std::map<int, std::vector<StoredShadow>> shadows_;  ///< by light, then receiver
+    std::vector<std::optional<TexelTarget>> textures_;
+    std::vector<std::string> composed_;
+    ShadowPasses passes_;
+    Program compose_;
+    FullscreenTriangle triangle_;
+};
+
+}  // namespace penumbra

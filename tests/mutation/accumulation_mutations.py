@@ -1,0 +1,143 @@
+"""Breaks what chapter 08 computes on the CPU on purpose, one break at a time, and demands that its unit tests notice.
+
+As truth_mutations.py does for the closed forms. One alone:
+    python3 tests/mutation/accumulation_mutations.py AccumulationMutations.testNoMarginAtTheReceiver
+"""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COMPILER = os.environ.get("CXX", "c++")
+FLAGS = ["-std=c++20", "-O1", "-ffp-contract=off", f'-DPENUMBRA_SOURCE_DIR="{ROOT}"']
+LIBRARIES = ["-lgtest", "-lgtest_main", "-ltbb", "-lfmt", "-pthread"]
+CHAPTER = "chapters/08_accumulation/"
+SOURCES = [
+    "common/math/polygon.cpp", "common/math/sampling.cpp", "common/scene/light.cpp",
+    "chapters/00_ray_traced_truth/light_samples.cpp"] + [
+    f"common/truth/{name}.cpp"
+    for name in ("lambert_polygon", "cone_subtraction", "polygon_light", "shadow_polygon", "segment_test", "parallel",
+                 "triangle_bvh", "exact_scene")] + [
+    f"{CHAPTER}{name}.cpp"
+    for name in ("flat_polygons", "receiver", "light_points", "projection", "reach", "occluder_tree", "block_map", "texel_blocks", "plane_light",
+                 "exact_receiver", "unoccluded_texture")]
+
+# name: (file, unit program that must fail, [(old, new), ...])
+MUTATIONS = {
+    "TexelCorners": (CHAPTER + "receiver.h", "receiver", [("(column + 0.5)", "(column + 0.0)")]),
+    "FoldsAreFlat": (CHAPTER + "flat_polygons.cpp", "receiver", [("> tolerance_) return", "> 1e9 * tolerance_) return")]),
+    "SmoothIsFlat": (CHAPTER + "flat_polygons.cpp", "receiver", [("> 1e-3) return", "> 1e3) return")]),
+    "BoxAlongTheFirstEdge": (
+        CHAPTER + "flat_polygons.cpp", "receiver", [("* (1.0 - 1e-9)) continue", "* (1.0 - 1e-9) || i > 0) continue")]),
+    "EveryHullIsAParallelogram": (
+        CHAPTER + "flat_polygons.cpp", "receiver", [("<= 1e-6 * glm::length(c - a)", "<= 1e6"), ("hull.size() == 4", "hull.size() >= 4")]),
+    "BackKeepsItsEdges": (
+        CHAPTER + "receiver.cpp", "receiver",
+        [("receiver.uEdge = back ? v : u", "receiver.uEdge = u"), ("receiver.vEdge = back ? u : v", "receiver.vEdge = v")]),
+    "LightsReceive": (CHAPTER + "receiver.cpp", "receiver", [("if (isLight(part)) continue;", "")]),
+    "InsidesReceive": (CHAPTER + "receiver.cpp", "receiver", [("if (back && surface.closed) continue;", "")]),
+    "RowsOfEqualHeight": (
+        CHAPTER + "light_points.cpp", "light_points",
+        [("(first + inCell.y * columns) / count", "(row + inCell.y) / rows")]),
+    "UnshiftedLattice": (CHAPTER + "light_points.cpp", "light_points", [("goldenRatio) + shift", "goldenRatio) + 0.0 * shift")]),
+    "FirstPolygonOfTheLightOnly": (
+        "chapters/00_ray_traced_truth/light_samples.cpp", "light_points", [("if (u.x < below + share ||", "if (true ||")]),
+    "NoMarginAtTheReceiver": (CHAPTER + "projection.cpp", "projection", [("std::max(1.0 - above,", "std::max(1.0 - 0.0 * above,")]),
+    "HalfTheMarginAtTheReceiver": (
+        CHAPTER + "projection.cpp", "projection", [("roundingsOfARow = 10.0", "roundingsOfARow = 0.1"), ("2.0 * floatRounding * largest", "0.0")]),
+    "NegativeProjection": (
+        CHAPTER + "projection.cpp", "projection", [("2.0 * projection.far * near / depth)", "0.0)")]),
+    "WrongJacobian": (
+        CHAPTER + "projection.cpp", "projection", [("uNormal / glm::dot(uNormal, receiver.uEdge)", "glm::normalize(uNormal)")]),
+    "LightsBelowProject": (
+        CHAPTER + "projection.cpp", "projection", [("if (receiver.height(point.position) <= rounding)", "if (false)")]),
+    "OneCornerDecides": (CHAPTER + "reach.cpp", "reach", [("i < group.first + group.count", "i < group.first + 1")]),
+    "EdgesSeenFromOneCorner": (
+        CHAPTER + "reach.cpp", "reach", [("i < piece.area.count && all", "i < 1 && all")]),
+    "OnePolygonMissedIsEnough": (CHAPTER + "reach.cpp", "reach", [("std::all_of(pieces_", "std::any_of(pieces_")]),
+    "InwardIsOutward": (CHAPTER + "reach.cpp", "reach", [("glm::cross(b, a)", "glm::cross(a, b)")]),
+    "BoxesAreTheirCentres": (CHAPTER + "reach.cpp", "reach", [("+ glm::dot(glm::abs(plane.inward), half)", "")]),
+    "CentresForTexels": (CHAPTER + "block_map.cpp", "blocks", [("first, size, 0.5)", "first, size, 0.0)")]),
+    "NearCutsOccluders": (CHAPTER + "reach.cpp", "reach", [("0.9 * smallest", "1.1 * smallest")]),
+    "OwnTrianglesShadow": (
+        CHAPTER + "reach.cpp", "reach", [("-2.0 * 0x1p-24 * scale_", "0.0")]),
+    "BlocksOverlap": (CHAPTER + "texel_blocks.cpp", "blocks", [("middle[axis] += near[axis]", "middle[axis] += near[axis] - 1")]),
+    "EmissionCountsTwice": (CHAPTER + "plane_light.cpp", "exact_receiver", [("facingIrradiance(unit_, x)", "facingIrradiance(light_, x)")]),
+    "NoCosine": (
+        CHAPTER + "plane_light.cpp", "exact_receiver",
+        [("* std::max(0.0, glm::dot(n_, directionToLight(unit_, x)))", "")]),
+    "LightsShineFromBelow": (CHAPTER + "plane_light.cpp", "exact_receiver", [("isAbove_ = isAbove_ &&", "isAbove_ = true ||")]),
+    "OccludersBeyondALamp": (
+        CHAPTER + "plane_light.cpp", "exact_receiver", [("light_.type == LightType::directional;", "true;")]),
+    "HalfOfTheTree": (
+        CHAPTER + "occluder_tree.cpp", "blocks",
+        [("return reachesInto(reach, 2 * node) || reachesInto(reach, 2 * node + 1);", "return reachesInto(reach, 2 * node);")]),
+    "InterpolatedAnyway": (
+        CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("<= 2e-8 * exact", "<= 1.0")]),
+    "AcrossTheLightsPlane": (
+        CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("!(value > 0.0)", "false"), ("<= 2e-8 * exact", "<= 1.0")]),
+    "OddTexelsAreLeftOut": (
+        CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("std::min(column, texels.x - tile)", "column / tile * tile * (column + tile <= texels.x)")]),
+}
+
+
+def compile_(source, output, *include):
+    folders = [f"-I{folder}" for folder in (*include, ROOT)]
+    subprocess.run([COMPILER, *FLAGS, *folders, "-c", source, "-o", output], check=True)
+
+
+class AccumulationMutations(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.objects = {}
+
+    def object(self, source):
+        """The unbroken object of `source`, compiled once."""
+        if source not in self.objects:
+            self.objects[source] = self.folder / (source.replace("/", "_") + ".o")
+            compile_(ROOT / source, self.objects[source])
+        return self.objects[source]
+
+    def passes(self, program, broken=None, file=""):
+        """Does unit program `program` pass, with `file` from folder `broken` in place of the real one?"""
+        sources = [f"tests/unit/accumulation_{program}_test.cpp", *SOURCES]
+        objects = []
+        for source in sources:
+            # A broken header is seen by whoever includes it by its path from the root.
+            if source == file or (file.endswith(".h") and source.startswith(("tests", CHAPTER))):
+                object_ = broken / (pathlib.Path(source).name + ".o")
+                compile_(broken / source if source == file else ROOT / source, object_, broken)
+            else:
+                object_ = self.object(source)
+            objects.append(object_)
+        binary = (broken or self.folder) / program
+        subprocess.run([COMPILER, *objects, *LIBRARIES, "-o", binary], check=True)
+        return subprocess.run([binary, "--gtest_fail_fast"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              timeout=120).returncode == 0
+
+    def check(self, name):
+        file, program, replacements = MUTATIONS[name]
+        text = (ROOT / file).read_text()
+        for old, new in replacements:
+            self.assertTrue(old in text, f"{name}: {file} no longer contains '{old}'; adapt the mutation")
+            text = text.replace(old, new)
+        broken = self.folder / name
+        (broken / file).parent.mkdir(parents=True)
+        (broken / file).write_text(text)
+        self.assertFalse(self.passes(program, broken, file), f"{name}: unit_accumulation_{program} does not notice")
+
+    def testUnbroken(self):
+        for program in sorted({program for _, program, _ in MUTATIONS.values()}):
+            self.assertTrue(self.passes(program), f"unit_accumulation_{program} fails without any mutation")
+
+
+for name_ in MUTATIONS:
+    setattr(AccumulationMutations, f"test{name_}", lambda self, name=name_: self.check(name))
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
