@@ -13,10 +13,6 @@ namespace {
 
 constexpr double relativeSlack = 1e-9;
 
-double sumOfMagnitudes(const glm::dvec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
 Polygon3 flipped(const Polygon3& polygon) {
     Polygon3 result;
     for (int i = polygon.count - 1; i >= 0; --i) result.push(polygon[i]);
