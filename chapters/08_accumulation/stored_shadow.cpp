@@ -9,8 +9,7 @@
 namespace penumbra {
 
 GLenum sumFormat(const Capabilities& capabilities, const std::string& target) {
-    // Four channels for two sums: with two, Mesa 22.3's software renderer adds wrongly in blocks of texels
-    // that are covered in part.
+    // Two sums in four channels: what an accumulation buffer has, and what can be drawn into everywhere.
     if (target == "8") return GL_RGBA8;
     return target == "16f" || !capabilities.floatBlend ? GL_RGBA16F : GL_RGBA32F;
 }

@@ -51,12 +51,15 @@ class Filler {
     Filler(const Receiver& receiver, const Light& light, std::vector<float>& texture)
         : receiver_(receiver), lit_(receiver, light), texture_(texture) {}
 
-    void fillTile(int column, int row) const {
+    /// Writes the rows from `first` on: the others are another band's, perhaps on another thread, and as it
+    /// interpolates them differently, who came last would show.
+    void fillTile(int column, int row, int first) const {
         NodeValues values;
         for (int k = 0; k < nodes; ++k)
             for (int m = 0; m < nodes; ++m) {
                 const double value = at(column + spacing * m, row + spacing * k);
-                if (!(value > 0.0)) return fillEach(column, row, {tile, tile});  // the light's plane
+                if (!(value > 0.0))
+                    return fillEach(column, first, {tile, row + tile - first});  // the light's plane
                 values[std::size_t(k)][std::size_t(m)] = value;
             }
         const TileValues smooth = interpolated(values);
@@ -64,9 +67,10 @@ class Filler {
             for (const int i : {1, tile - 2}) {
                 const double exact = at(column + i, row + j);
                 const double off = smooth[std::size_t(j)][std::size_t(i)] - exact;
-                if (!(std::abs(off) <= 2e-8 * exact)) return fillEach(column, row, {tile, tile});
+                if (!(std::abs(off) <= 2e-8 * exact))
+                    return fillEach(column, first, {tile, row + tile - first});
             }
-        for (int j = 0; j < tile; ++j)
+        for (int j = first - row; j < tile; ++j)
             for (int i = 0; i < tile; ++i)
                 texel(column + i, row + j) = float(smooth[std::size_t(j)][std::size_t(i)]);
     }
@@ -100,7 +104,7 @@ std::vector<float> unoccludedTexture(const Receiver& receiver, const Light& ligh
         if (!tiled) return filler.fillEach(0, row, {texels.x, std::min(tile, texels.y - row)});
         // The last tiles overlap those before them.
         for (int column = 0; column < texels.x; column += tile)
-            filler.fillTile(std::min(column, texels.x - tile), std::min(row, texels.y - tile));
+            filler.fillTile(std::min(column, texels.x - tile), std::min(row, texels.y - tile), row);
     });
     return texture;
 }
