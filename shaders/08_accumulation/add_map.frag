@@ -6,8 +6,6 @@
 in vec3 pWorld;
 in vec3 nWorld;
 
-uniform mat4 uShadowTextureFromWorld;
-
 layout(location = 0) out vec4 outSums;
 
 // [begin:add-map]
@@ -17,7 +15,7 @@ void main() {
     vec4 dx = dFdx(pShadow), dy = dFdy(pShadow);
     Receiver receiver;
     float S;
-    bool onMap = receiverOnMap(pShadow, dx, dy, receiver, S);
+    bool onMap = receiverOnMap(pShadow, pWorld, dx, dy, receiver, S);
     float tested = litByTexel(receiver, texelAt(receiver.str.xy), kernelBias(receiver, 0.0));
     // The light's emission is 1 here: facingIrradiance is the cosine at the light over r^2.
     float f = facingIrradiance(pWorld).r * max(dot(facingNormal(nWorld), directionToLight(pWorld)), 0.0);

@@ -18,7 +18,7 @@ SOURCES = [
     "common/math/polygon.cpp", "common/math/sampling.cpp", "common/scene/light.cpp",
     "chapters/00_ray_traced_truth/light_samples.cpp"] + [
     f"common/truth/{name}.cpp"
-    for name in ("lambert_polygon", "cone_subtraction", "polygon_light", "shadow_polygon", "segment_test", "parallel",
+    for name in ("lambert_polygon", "light_pyramid", "cone_subtraction", "polygon_light", "shadow_polygon", "segment_test", "parallel",
                  "triangle_bvh", "exact_scene")] + [
     f"{CHAPTER}{name}.cpp"
     for name in ("flat_polygons", "receiver", "light_points", "projection", "reach", "occluder_tree", "block_map", "texel_blocks", "plane_light",
