@@ -45,15 +45,19 @@ double PlaneLight::visible(const glm::dvec3& x, std::span<const Triangle> occlud
     return std::numbers::pi * sum;
 }
 
-/// formFactor to the bit, three times as fast where `x` is plainly in front of the light and the light
-/// plainly above the receiver, so that nothing of it has to be cut.
+/// formFactor to the bit, three times as fast where `x` is plainly in front of the light, the light plainly
+/// above the receiver and plainly not wide, so that nothing of it has to be cut.
 double PlaneLight::whole(const glm::dvec3& x, const std::vector<glm::dvec3>& polygon) const {
-    if (!isAbove_ || polygon.size() > Polygon3::capacity / 2 - 1 ||
-        glm::dot(light_.direction, x - polygon[0]) < plainly_)
-        return formFactor(x, n_, polygon);
+    if (!isAbove_ || polygon.size() > cornersOfALight) return formFactor(x, n_, polygon);
+    const double height = glm::dot(light_.direction, x - polygon[0]);
+    const double widest = 0.99 * heightsOfAWideLight * height;
     Polygon3 relative;
-    for (const glm::dvec3& p : polygon) relative.push(p - x);
-    return lambertFormFactor(n_, relative);
+    bool plain = height >= plainly_;
+    for (const glm::dvec3& p : polygon) {
+        relative.push(p - x);
+        plain = plain && glm::dot(p - x, p - x) <= widest * widest;
+    }
+    return plain ? lambertFormFactor(n_, relative) : formFactor(x, n_, polygon);
 }
 
 double PlaneLight::fromPoint(const glm::dvec3& x) const {

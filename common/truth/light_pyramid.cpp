@@ -26,7 +26,7 @@ Polygon3 equallyFar(const Polygon3& polygon) {
 }
 
 bool isWide(const LightPyramid& pyramid, const Polygon3& light) {
-    constexpr double most = 16.0;
+    constexpr double most = heightsOfAWideLight;
     double farthest = 0.0;
     for (const glm::dvec3& p : light.span()) farthest = std::max(farthest, glm::dot(p, p));
     return most * most * pyramid.height * pyramid.height < farthest;

@@ -17,6 +17,11 @@ inline double sumOfMagnitudes(const glm::dvec3& v) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
+/// What one pyramid has room for: a quadrant of the light may have two corners more.
+inline constexpr std::size_t cornersOfALight = Polygon3::capacity / 2 - 2;
+/// A light is wide, and summed up in quadrants, if a corner is farther than so many heights.
+inline constexpr double heightsOfAWideLight = 16.0;
+
 /// The pyramid from a receiver point over a light polygon, above the receiver's horizon: only what reaches
 /// into it can shadow.
 struct LightPyramid {
@@ -79,7 +84,7 @@ double sumOverQuadrants(const glm::dvec3& x, const glm::dvec3& n, std::span<cons
 template <class ValueOf>
 double sumOverPyramids(const glm::dvec3& x, const glm::dvec3& n, std::span<const glm::dvec3> polygon,
                        const ValueOf& valueOf) {
-    constexpr std::size_t most = Polygon3::capacity / 2 - 2;  // a quadrant may have two corners more
+    constexpr std::size_t most = cornersOfALight;
     if (polygon.size() <= most) return sumOverQuadrants(x, n, polygon, valueOf);
     double sum = 0.0;
     std::array<glm::dvec3, most> piece;
