@@ -48,7 +48,6 @@ void setMaterial(Program& program, const Material& material, GLuint texture) {
     program.set("uShininess", material.shininess);
     program.set("uEmission", material.emission);
     program.set("uHasTexture", material.diffuseTexture >= 0);
-    program.set("uDoubleSided", material.doubleSided);
     program.setTexture("uDiffuseTexture", GL_TEXTURE_2D, texture);
 }
 

@@ -46,8 +46,7 @@ class GpuScene {
     GLuint depthArray() const { return depthArray_.id(); }
 
     /// Full attributes, one material at a time: sets the uniforms of shaders/common/material.glsl on
-    /// `program` before each draw (uDiffuse, uSpecular, uShininess, uEmission, uDiffuseTexture, uHasTexture,
-    /// uDoubleSided).
+    /// `program` before each draw (uDiffuse, uSpecular, uShininess, uEmission, uDiffuseTexture, uHasTexture).
     DrawCounts drawShaded(Program& program, const VisibleClusters& visible) const;
     /// The same for triangles of one part, whatever their clusters.
     DrawCounts drawShaded(Program& program, int part, const std::vector<IndexRange>& ranges) const;

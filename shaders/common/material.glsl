@@ -6,7 +6,6 @@ uniform float uShininess;
 uniform vec3 uEmission;      // radiance from the front side
 uniform bool uHasTexture;
 uniform sampler2D uDiffuseTexture;
-uniform bool uDoubleSided;
 
 vec3 materialDiffuse(vec2 uv) {
     // Fetched outside the branch: a derivative taken inside a branch that not all pixels enter is undefined.
