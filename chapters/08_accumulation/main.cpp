@@ -26,11 +26,13 @@ class Accumulation : public Chapter {
 
     void render(const Frame& frame) override {
         options_.maps.light = options_.light;
+        if (frame.view == "hard-shadows" && options_.method != "mask")
+            throw UsageError("--view hard-shadows: shows the bits of --method mask");
         // [begin:passes]
         // --method shadow-maps: no receiver is special, the camera's pixels are added up.
         if (options_.method == "shadow-maps") {
-            if (frame.view == "textures" || frame.view == "hard-shadows")
-                throw UsageError("--view " + frame.view + ": --method shadow-maps has no textures of light");
+            if (frame.view == "textures")
+                throw UsageError("--view textures: --method shadow-maps has no textures of light");
             return picture_->draw(frame, options_, nullptr);
         }
 

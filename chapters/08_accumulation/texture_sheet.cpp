@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/error.h"
-
 namespace penumbra {
 
 TextureSheet::TextureSheet() : sheet_("common/fullscreen.vert", "08_accumulation/sheet.frag") {}
@@ -51,7 +49,8 @@ void TextureSheet::drawHardShadows(const Frame& frame, const ReceivedLight& rece
         }
         return;
     }
-    throw UsageError("--view hard-shadows: shows the bits of --method mask, and no receiver has any shadow");
+    glClearColor(1, 1, 1, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
 }
 
 }  // namespace penumbra

@@ -10,7 +10,7 @@ class TextureSheet {
     TextureSheet();
     /// The receivers' textures, the largest first.
     void drawTextures(const Frame& frame, const ReceivedLight& received);
-    /// One image for each light point on the largest receiver that has masks. Throws UsageError if none has.
+    /// One image for each light point on the largest receiver that has any shadow; all white if none has.
     void drawHardShadows(const Frame& frame, const ReceivedLight& received);
     Program& program() { return sheet_; }
 

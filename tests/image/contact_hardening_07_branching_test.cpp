@@ -90,10 +90,10 @@ double rampWidth(double height) {
     for (int x = 0; x < pixels; ++x)
         for (int y = 96; y < 160; ++y) profile[std::size_t(x)] += visibility.at(x, y) / 64.0;
     const auto crossing = [&profile](double level) {
-        int x = 0;
-        while (x + 1 < pixels && profile[std::size_t(x + 1)] > level) ++x;
-        const double a = profile[std::size_t(x)], b = profile[std::size_t(x + 1)];
-        return x + (a - level) / (a - b);
+        std::size_t x = 0;
+        while (x + 1 < profile.size() && profile[x + 1] > level) ++x;
+        const double a = profile[x], b = profile[x + 1];
+        return double(x) + (a - level) / (a - b);
     };
     return 2.0 * (crossing(0.25) - crossing(0.75)) * scene.cameras[0].height / pixels;
 }

@@ -364,7 +364,7 @@ TEST_P(RenderTargetTest, WithoutFloatColourItFallsBack) {
 TEST_P(RenderTargetTest, ImpossibleSizesAreRefused) {
     for (const glm::ivec2& size : {glm::ivec2(0, 4), glm::ivec2(4, -1), glm::ivec2(4, 1 << 20)}) {
         try {
-            RenderTarget(size, capabilities());
+            const RenderTarget refused(size, capabilities());
             ADD_FAILURE() << size.x << ' ' << size.y;
         } catch (const Error& error) {
             EXPECT_NE(std::string(error.what()).find("allows 1 to "), std::string::npos) << error.what();
