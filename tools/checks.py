@@ -7,7 +7,6 @@ import xml.etree.ElementTree as xml
 from concurrent.futures import ThreadPoolExecutor
 
 import build
-import house
 import regions
 import tidy
 
@@ -85,11 +84,11 @@ def sanitizers():
         "UBSAN_OPTIONS": "print_stacktrace=1",
         "PENUMBRA_TEST_OUTPUT": str(build.folder("sanitize") / "images"),
     }
-    # The assets are those of the release build: instrumented code rounds the last bit of a sine differently. And wrong
-    # values of parameters are refused by the code that unit_parameters tests, not by hundreds of chapters to be started.
-    # Of the chapters, which share all that reads a command line, one is started.
-    flags = ["-L", "unit", "-E", "ByteForByte|RefusesEveryParameter|RealChapter.*/C0[0-24-9]"]
-    return ctest("sanitize", flags, [*unit, "make_assets", *house.chapterNames(ROOT)], environment)
+    # The assets are those of the release build: instrumented code rounds the last bit of a sine differently. And
+    # unit_chapter_cli starts every chapter many times: once in a hundred times the leak checker itself crashes while a
+    # driver's threads end ("Tracer caught signal 11").
+    flags = ["-L", "unit", "-E", "ByteForByte|chapter_cli"]
+    return ctest("sanitize", flags, [*unit, "make_assets"], environment)
 
 
 def withoutOsmesa():
