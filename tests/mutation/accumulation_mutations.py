@@ -3,15 +3,10 @@
 As truth_mutations.py does for the closed forms. One alone:
     python3 tests/mutation/accumulation_mutations.py AccumulationMutations.testNoMarginAtTheReceiver
 """
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-COMPILER = os.environ.get("CXX", "c++")
-FLAGS = ["-std=c++20", "-O1", "-ffp-contract=off", f'-DPENUMBRA_SOURCE_DIR="{ROOT}"']
+import mutants
+
 LIBRARIES = ["-lgtest", "-lgtest_main", "-ltbb", "-lfmt", "-pthread"]
 CHAPTER = "chapters/08_accumulation/"
 SOURCES = [
@@ -83,61 +78,17 @@ MUTATIONS = {
 }
 
 
-def compile_(source, output, *include):
-    folders = [f"-I{folder}" for folder in (*include, ROOT)]
-    subprocess.run([COMPILER, *FLAGS, *folders, "-c", source, "-o", output], check=True)
+class AccumulationMutations(mutants.LinkedMutations):
+    mutations, sources, libraries = MUTATIONS, SOURCES, LIBRARIES
+
+    def unitTestsOf(self, program):
+        return [f"tests/unit/accumulation_{program}_test.cpp"]
+
+    def mayInclude(self, source, header):
+        return source.startswith(("tests", CHAPTER))
 
 
-class AccumulationMutations(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        cls.objects = {}
-
-    def object(self, source):
-        """The unbroken object of `source`, compiled once."""
-        if source not in self.objects:
-            self.objects[source] = self.folder / (source.replace("/", "_") + ".o")
-            compile_(ROOT / source, self.objects[source])
-        return self.objects[source]
-
-    def passes(self, program, broken=None, file=""):
-        """Does unit program `program` pass, with `file` from folder `broken` in place of the real one?"""
-        sources = [f"tests/unit/accumulation_{program}_test.cpp", *SOURCES]
-        objects = []
-        for source in sources:
-            # A broken header is seen by whoever includes it by its path from the root.
-            if source == file or (file.endswith(".h") and source.startswith(("tests", CHAPTER))):
-                object_ = broken / (pathlib.Path(source).name + ".o")
-                compile_(broken / source if source == file else ROOT / source, object_, broken)
-            else:
-                object_ = self.object(source)
-            objects.append(object_)
-        binary = (broken or self.folder) / program
-        subprocess.run([COMPILER, *objects, *LIBRARIES, "-o", binary], check=True)
-        return subprocess.run([binary, "--gtest_fail_fast"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                              timeout=120).returncode == 0
-
-    def check(self, name):
-        file, program, replacements = MUTATIONS[name]
-        text = (ROOT / file).read_text()
-        for old, new in replacements:
-            self.assertTrue(old in text, f"{name}: {file} no longer contains '{old}'; adapt the mutation")
-            text = text.replace(old, new)
-        broken = self.folder / name
-        (broken / file).parent.mkdir(parents=True)
-        (broken / file).write_text(text)
-        self.assertFalse(self.passes(program, broken, file), f"{name}: unit_accumulation_{program} does not notice")
-
-    def testUnbroken(self):
-        for program in sorted({program for _, program, _ in MUTATIONS.values()}):
-            self.assertTrue(self.passes(program), f"unit_accumulation_{program} fails without any mutation")
-
-
-for name_ in MUTATIONS:
-    setattr(AccumulationMutations, f"test{name_}", lambda self, name=name_: self.check(name))
+mutants.addTests(AccumulationMutations)
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

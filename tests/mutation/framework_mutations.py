@@ -12,7 +12,9 @@ import subprocess
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+import mutants
+from mutants import ROOT
+
 BUILD = pathlib.Path(os.environ.get("PENUMBRA_BUILD", ROOT / "build" / "release"))
 APP, GL, IMAGE, SCENE = "common/app/", "common/gl/", "common/image/", "common/scene/"
 
@@ -107,6 +109,8 @@ def withOutput(words, output):
 
 
 class FrameworkMutations(unittest.TestCase):
+    mutations = MUTATIONS
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -134,17 +138,14 @@ class FrameworkMutations(unittest.TestCase):
 
     def passes(self, binary, test, shaders=None):
         environment = {**os.environ, **({"PENUMBRA_SHADERS": str(shaders)} if shaders else {})}
-        return subprocess.run([binary, f"--gtest_filter={test}", "--gtest_fail_fast"], stdout=subprocess.DEVNULL,
-                              stderr=subprocess.DEVNULL, env=environment, timeout=120).returncode == 0
+        return mutants.passes(binary, f"--gtest_filter={test}", environment=environment)
 
     def check(self, name):
         file, unit, test, replacements = MUTATIONS[name]
-        program, text = f"unit_{unit}", (ROOT / file).read_text()
+        program = f"unit_{unit}"
         commands = commandsOf(program)
         self.assertTrue(self.passes(BUILD / "bin" / program, test), f"{program} fails without any mutation")
-        for old, new in replacements:
-            self.assertTrue(old in text, f"{name}: {file} no longer contains '{old}'; adapt the mutation")
-            text = text.replace(old, new)
+        text = mutants.broken(self, name, file, replacements)
         if file.startswith("shaders/"):
             shutil.copytree(ROOT / "shaders", self.folder / "shaders")
             (self.folder / file).write_text(text)
@@ -154,8 +155,7 @@ class FrameworkMutations(unittest.TestCase):
         self.assertTrue(noticed, f"{name}: {program} --gtest_filter={test} does not notice")
 
 
-for name_ in MUTATIONS:
-    setattr(FrameworkMutations, f"test{name_}", lambda self, name=name_: self.check(name))
+mutants.addTests(FrameworkMutations)
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

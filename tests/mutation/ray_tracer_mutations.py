@@ -3,15 +3,11 @@
 As truth_mutations.py does for the closed forms. One alone:
     python3 tests/mutation/ray_tracer_mutations.py RayTracerMutations.testOwnTriangleBlocks
 """
-import os
 import pathlib
-import subprocess
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-COMPILER = os.environ.get("CXX", "c++")
-FLAGS = ["-std=c++20", "-O1", "-ffp-contract=off", f'-DPENUMBRA_SOURCE_DIR="{ROOT}"']
+import mutants
+
 EMBREE = "-lembree4" if pathlib.Path("/usr/include/embree4").exists() else "-lembree3"
 LIBRARIES = ["-lgtest", "-lgtest_main", "-ltbb", "-lfmt", EMBREE, "-pthread"]
 TRUTH = "common/truth/"
@@ -39,49 +35,18 @@ MUTATIONS = {
 }
 
 
-def compile_(source, output, *include):
-    folders = [f"-I{folder}" for folder in (*include, ROOT)]
-    subprocess.run([COMPILER, *FLAGS, *folders, "-c", source, "-o", output], check=True)
+class RayTracerMutations(mutants.LinkedMutations):
+    mutations = {name: (file, "ray_tracer", replacements) for name, (file, replacements) in MUTATIONS.items()}
+    sources, libraries = SOURCES, LIBRARIES
+
+    def unitTestsOf(self, program):
+        return TESTS
+
+    def mayInclude(self, source, header):
+        return source in (TRUTH + "embree_scene.cpp", TRUTH + "ray_tracer.cpp")
 
 
-class RayTracerMutations(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        cls.objects = {}
-        for source in [*TESTS, *SOURCES]:
-            cls.objects[source] = cls.folder / (pathlib.Path(source).name + ".o")
-            compile_(ROOT / source, cls.objects[source])
-
-    def passes(self, objects, binary):
-        subprocess.run([COMPILER, *objects.values(), *LIBRARIES, "-o", binary], check=True)
-        return subprocess.run([binary, "--gtest_fail_fast"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                              timeout=120).returncode == 0
-
-    def check(self, name):
-        file, replacements = MUTATIONS[name]
-        text = (ROOT / file).read_text()
-        for old, new in replacements:
-            self.assertTrue(old in text, f"{name}: {file} no longer contains '{old}'; adapt the mutation")
-            text = text.replace(old, new)
-        broken = self.folder / name
-        (broken / file).parent.mkdir(parents=True)
-        (broken / file).write_text(text)
-        objects = dict(self.objects)
-        # A broken header is seen by whoever includes it by its path from the root.
-        for source in [TRUTH + "embree_scene.cpp", TRUTH + "ray_tracer.cpp"] if file.endswith(".h") else [file]:
-            objects[source] = broken / (pathlib.Path(source).name + ".o")
-            compile_((broken if source == file else ROOT) / source, objects[source], broken)
-        self.assertFalse(self.passes(objects, broken / "test"), f"{name}: unit_ray_tracer and unit_shadow_packet do not notice")
-
-    def testUnbroken(self):
-        self.assertTrue(self.passes(self.objects, self.folder / "test"), "the tests fail without any mutation")
-
-
-for name_ in MUTATIONS:
-    setattr(RayTracerMutations, f"test{name_}", lambda self, name=name_: self.check(name))
+mutants.addTests(RayTracerMutations)
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

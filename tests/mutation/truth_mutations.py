@@ -4,15 +4,10 @@ A test that cannot fail proves nothing. Each mutation below is a bug that somebo
 it still passes, the test is too weak. Slow (a minute or two): part of the full ./test, not of --fast. One alone:
     python3 tests/mutation/truth_mutations.py TruthMutations.testNoHorizonClip
 """
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-COMPILER = os.environ.get("CXX", "c++")
-FLAGS = ["-std=c++20", "-O1", "-ffp-contract=off", f'-DPENUMBRA_SOURCE_DIR="{ROOT}"']
+import mutants
+
 SOURCES = ["common/math/polygon.cpp"] + [
     f"common/truth/{name}.cpp"
     for name in ("lambert_polygon", "light_pyramid", "cone_subtraction", "polygon_light", "shadow_polygon",
@@ -98,61 +93,11 @@ MUTATIONS = {
 }
 
 
-def compile_(source, output, include):
-    subprocess.run([COMPILER, *FLAGS, f"-I{include}", f"-I{ROOT}", "-c", source, "-o", output], check=True)
+class TruthMutations(mutants.LinkedMutations):
+    mutations, sources, libraries = MUTATIONS, SOURCES, LIBRARIES
 
 
-class TruthMutations(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        cls.objects = {}
-
-    def object(self, source):
-        """The unbroken object of `source`, compiled once."""
-        if source not in self.objects:
-            self.objects[source] = self.folder / (source.replace("/", "_") + ".o")
-            compile_(ROOT / source, self.objects[source], ROOT)
-        return self.objects[source]
-
-    def passes(self, program, broken=None):
-        """Does unit program `program` pass, with the files in folder `broken` in place of the real ones?"""
-        test = f"tests/unit/{program}_test.cpp"
-        objects = []
-        for source in [test, *SOURCES]:
-            # A broken header may be included by any of them.
-            changed = broken and ((broken / source).exists() or any(broken.rglob("*.h")))
-            if changed:
-                object_ = broken / (pathlib.Path(source).name + ".o")
-                compile_(broken / source if (broken / source).exists() else ROOT / source, object_, broken)
-            else:
-                object_ = self.object(source)
-            objects.append(object_)
-        binary = (broken or self.folder) / program
-        subprocess.run([COMPILER, *objects, *LIBRARIES, "-o", binary], check=True)
-        return subprocess.run([binary, "--gtest_fail_fast"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                              timeout=120).returncode == 0
-
-    def check(self, name):
-        file, program, replacements = MUTATIONS[name]
-        text = (ROOT / file).read_text()
-        for old, new in replacements:
-            self.assertTrue(old in text, f"{name}: {file} no longer contains '{old}'; adapt the mutation")
-            text = text.replace(old, new)
-        broken = self.folder / name  # one folder, so that its headers come before the real ones
-        (broken / file).parent.mkdir(parents=True)
-        (broken / file).write_text(text)
-        self.assertFalse(self.passes(program, broken), f"{name}: unit_{program} does not notice")
-
-    def testUnbroken(self):
-        for program in sorted({program for _, program, _ in MUTATIONS.values()}):
-            self.assertTrue(self.passes(program), f"unit_{program} fails without any mutation")
-
-
-for name_ in MUTATIONS:
-    setattr(TruthMutations, f"test{name_}", lambda self, name=name_: self.check(name))
+mutants.addTests(TruthMutations)
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
