@@ -4,15 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "common/math/magnitude.h"
+
 namespace penumbra {
 
 namespace {
 
 constexpr double floatRounding = 0x1p-24;  ///< relative, of one float operation
-
-double sumOfMagnitudes(const glm::dvec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
 
 /// A plane function p -> dot(normal, p) + offset, as one row of a matrix.
 glm::dvec4 row(const glm::dvec3& normal, const glm::dvec3& zeroAt) {

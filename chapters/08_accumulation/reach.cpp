@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "chapters/08_accumulation/projection.h"
+#include "common/math/magnitude.h"
 
 namespace penumbra {
 

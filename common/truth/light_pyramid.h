@@ -4,18 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/glm.hpp>
 #include <span>
 
 #include "common/math/aabb.h"
+#include "common/math/magnitude.h"
 #include "common/math/polygon.h"
 
 namespace penumbra {
-
-inline double sumOfMagnitudes(const glm::dvec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
 
 /// What one pyramid has room for: a quadrant of the light may have two corners more.
 inline constexpr std::size_t cornersOfALight = Polygon3::capacity / 2 - 2;
