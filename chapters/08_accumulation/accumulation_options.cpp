@@ -32,7 +32,8 @@ std::vector<glm::dvec3> inward(const Light& light, const std::string& part) {
 }  // namespace
 
 void AccumulationOptions::declare(Parameters& parameters) {
-    parameters.add("light", light, -1, 63, "", "index of the light; -1: all of them, one after the other");
+    parameters.add("light", maps.light, -1, 63, "",
+                   "index of the light; -1: all of them, one after the other");
     parameters.add("samples", samples, 1, 4096, "",
                    "points of an area light; 4: hard edges side by side, 1024: smooth");
     parameters.add("pattern", pattern, patternNames,
@@ -64,13 +65,13 @@ void AccumulationOptions::declare(Parameters& parameters) {
 }
 
 std::vector<int> AccumulationOptions::chosenLights(const Scene& scene) const {
+    if (maps.light >= 0) {
+        maps.chosenLight(scene);  // throws if there is none
+        return {maps.light};
+    }
     std::vector<int> all(scene.lights.size());
     std::iota(all.begin(), all.end(), 0);
-    if (light < 0) return all;
-    if (std::size_t(light) >= scene.lights.size())
-        throw UsageError(fmt::format("--light {}: scene {} has lights 0 to {}", light, scene.name,
-                                     scene.lights.size() - 1));
-    return {light};
+    return all;
 }
 
 bool inLightPart(const Light& light, const std::string& part, const glm::dvec3& p) {
@@ -120,7 +121,7 @@ ReceiverRequest AccumulationOptions::receiverRequest(const Scene& scene) const {
 }
 
 std::string AccumulationOptions::shadowKey(std::uint32_t seed) const {
-    return fmt::format("{} {} {} {} {} {} {} {} {} {}", light, samples, pattern, method, target, masks,
+    return fmt::format("{} {} {} {} {} {} {} {} {} {}", maps.light, samples, pattern, method, target, masks,
                        texelsPerMetre, texelBudget, minimumArea, seed);
 }
 

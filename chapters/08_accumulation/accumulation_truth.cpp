@@ -14,7 +14,7 @@ namespace {
 
 /// Emission, ambient term and the diffuse reflection of `irradiance`, in place.
 void reflect(TruthImage& irradiance, const TruthRequest& request, const AccumulationOptions& options) {
-    const glm::dvec3 ambient(ambientRadiance(request.scene, options.light, ambientShare));
+    const glm::dvec3 ambient(ambientRadiance(request.scene, options.maps.light, ambientShare));
     const PrimaryHits primary = primaryHits(request.tracer, request.camera, request.size);
     const auto answer = [&](const Hit& hit, int x, int y, float* value) {
         const Surface surface = surfaceAt(request.scene, hit);

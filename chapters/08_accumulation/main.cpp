@@ -25,7 +25,6 @@ class Accumulation : public Chapter {
     }
 
     void render(const Frame& frame) override {
-        options_.maps.light = options_.light;
         if (frame.view == "hard-shadows" && options_.method != "mask")
             throw UsageError("--view hard-shadows: shows the bits of --method mask");
         // [begin:passes]

@@ -37,7 +37,7 @@ Picture::Picture()
 void Picture::setView(Program& program, const Frame& frame, const AccumulationOptions& options) {
     program.set("uClipFromWorld",
                 glm::mat4(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y)));
-    program.set("uAmbientRadiance", ambientRadiance(frame.scene, options.light, ambientShare));
+    program.set("uAmbientRadiance", ambientRadiance(frame.scene, options.maps.light, ambientShare));
     program.set("uView", viewNumber(frame.view));
 }
 

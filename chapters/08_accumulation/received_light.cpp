@@ -17,7 +17,7 @@ void ReceivedLight::reset() {
 }
 
 void ReceivedLight::findReceivers(const Frame& frame, const AccumulationOptions& options) {
-    const std::string key = fmt::format("{} {} {} {}", options.light, options.texelsPerMetre,
+    const std::string key = fmt::format("{} {} {} {}", options.maps.light, options.texelsPerMetre,
                                         options.texelBudget, options.minimumArea);
     if (key == receiversKey_) return;
     reset();
