@@ -39,13 +39,10 @@ class Branching : public Chapter {
         if (frame.view == "depth") return pass_.show(frame, sight);
 
         // Pass 1b: minimum and maximum around each texel, when the map is new.
-        Program& branched = branched_->with(branching_.defines(viewOrWork(frame.view)));
-        branching_.set(branched, sight.map, sight.frustum, sight.light, frame);
+        Program& branched = prepared(viewOrWork(frame.view), frame, sight);
+        countWork(frame, sight);
 
         // Pass 2: the picture, all taps only where they may disagree.
-        setPicture(branched, frame, pass_.options, sight, outside_);
-        branched.set("uRed", 1.0f / exposure(frame.scene, pass_.options.light));
-        countWork(frame, sight);
         const PassScope scope(frame.passTimer, "shading");
         clearPicture(frame, pass_.options);
         glEnable(GL_DEPTH_TEST);
@@ -77,16 +74,22 @@ class Branching : public Chapter {
  private:
     static int viewOrWork(const std::string& view) { return view == "work" ? 3 : viewNumber(view); }
 
+    /// branching.frag for `view`, its uniforms set; makes the minimum-maximum map that it reads.
+    Program& prepared(int view, const Frame& frame, const LightSight& sight) {
+        Program& program = branched_->with(branching_.defines(view));
+        branching_.set(program, sight.map, sight.frustum, sight.light, frame);
+        setPicture(program, frame, pass_.options, sight, outside_);
+        program.set("uRed", 1.0f / exposure(frame.scene, pass_.options.light));
+        return program;
+    }
+
     /// In a frame in which something changed only; not part of the shading pass.
     void countWork(const Frame& frame, const LightSight& sight) {
         const glm::dmat4 seen = clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y);
         std::string state = parameters_->toJson(true) + std::to_string(frame.seed);
         state.append(reinterpret_cast<const char*>(&seen), sizeof seen);
         const PixelCounts& counted = count_->count(frame, state, [&] {
-            Program& flags = branched_->with(branching_.defines(4));
-            branching_.set(flags, sight.map, sight.frustum, sight.light, frame);
-            setPicture(flags, frame, pass_.options, sight, outside_);
-            frame.gpu->drawShaded(flags, allClusters(frame.scene));
+            frame.gpu->drawShaded(prepared(4, frame, sight), allClusters(frame.scene));
         });
         branching_.count(counted, frame.work);
     }
