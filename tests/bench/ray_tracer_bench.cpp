@@ -5,11 +5,6 @@
 //   build/release/bin/ray_tracer_bench --benchmark_enable_random_interleaving=true --benchmark_min_time=0.1
 //       --benchmark_repetitions=7
 #include <benchmark/benchmark.h>
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 
 #include <fmt/format.h>
 
@@ -22,6 +17,7 @@
 
 #include "common/math/sampling.h"
 #include "common/truth/truth_image.h"
+#include "tests/unit/embree_triangles.h"
 #include "tests/unit/test_meshes.h"
 
 namespace penumbra {
@@ -83,27 +79,6 @@ void tracedByUs(benchmark::State& state) {
     reportRate(state, rays.size());
 }
 
-/// Nothing but Embree: same triangles, same flags, a constant offset against self-shadowing, no filter.
-struct Bare {
-    RTCDevice device = rtcNewDevice(nullptr);
-    RTCScene scene = rtcNewScene(device);
-    explicit Bare(const Scene& s) {
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
-        RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        std::copy(s.positions.begin(), s.positions.end(),
-                  static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-                      g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, s.positions.size())));
-        std::copy(s.indices.begin(), s.indices.end(),
-                  static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-                      g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, s.triangleCount())));
-        rtcCommitGeometry(g);
-        rtcAttachGeometry(scene, g);
-        rtcReleaseGeometry(g);
-        rtcCommitScene(scene);
-    }
-};
-
 #if RTC_VERSION_MAJOR >= 4
 using How = RTCOccludedArguments;
 How coherent() {
@@ -158,7 +133,8 @@ auto& lane(Row& row, std::size_t i) {
 /// `width` rays of `Rays` at a time.
 template <class Rays, std::size_t width>
 void bareLoop(benchmark::State& state) {
-    static const Bare bare(subject().scene);
+    // The same triangles and flags, a constant offset against self-shadowing, no filter.
+    static const EmbreeTriangles bare(subject().scene);
     const std::vector<ShadowRay> rays = shadowRays(int(state.range(0)));
     std::vector<std::uint8_t> blocked(rays.size());
     for (auto _ : state) {
@@ -177,7 +153,7 @@ void bareLoop(benchmark::State& state) {
                 valid[i] = -1;
             }
             How how = coherent();
-            trace(valid, bare.scene, packet, how);
+            trace(valid, bare.scene(), packet, how);
             for (std::size_t i = 0; i < count; ++i) blocked[first + i] = lane(packet.tfar, i) < 0.0f;
         }
         benchmark::DoNotOptimize(blocked.data());

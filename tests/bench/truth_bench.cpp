@@ -8,15 +8,14 @@
 
 #include "common/truth/exact_scene.h"
 #include "common/truth/polygon_light.h"
+#include "tests/unit/figure_two.h"
 
 namespace penumbra {
 namespace {
 
 using glm::dvec3;
 
-// Heckbert & Herf, "Simulating Soft Shadows with Graphics Hardware" (CMU-CS-97-104, 1997), figure 2.
-const std::vector<dvec3> light = {{-0.5, -0.5, 2}, {-0.5, 0.5, 2}, {0.5, 0.5, 2}, {0.5, -0.5, 2}};
-const Triangle triangle = {dvec3(-0.4, -0.35, 1), dvec3(0.45, -0.3, 1), dvec3(0, 0.45, 1)};
+using figure_two::light, figure_two::triangle;
 const dvec3 up(0, 0, 1);
 const PlanarReceiver receiver = {{-1.2, -1.2, 0}, {2.4, 0, 0}, {0, 2.4, 0}};
 

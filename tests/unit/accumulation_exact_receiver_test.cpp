@@ -31,15 +31,7 @@ double exactAt(const dvec3& x, const Light& light, const std::vector<Triangle>& 
 }
 
 TEST(AccumulationExact, GoldenValues) {
-    const struct {
-        dvec3 x;
-        double whole, visible;
-    } golden[] = {{{0, 0, 0}, 0.073477634812521, 0.010136018748940},
-                  {{0.5, 0, 0}, 0.066182613783407, 0.033582065875840},
-                  {{-0.3, 0.4, 0}, 0.066185270360017, 0.041509825007278},
-                  {{0.9, 0.9, 0}, 0.039936405170093, 0.039936405170093},
-                  {{0, -0.8, 0}, 0.056677133901376, 0.040911767947412}};
-    for (const auto& g : golden) {
+    for (const auto& g : figure_two::golden) {
         EXPECT_NEAR(exactAt(g.x, squareLight(), {}), g.whole, 5e-15);
         EXPECT_NEAR(exactAt(g.x, squareLight(), {figureTriangle}), g.visible, 5e-15);
     }

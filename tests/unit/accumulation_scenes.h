@@ -9,6 +9,7 @@
 #include "common/math/polygon.h"
 #include "common/math/sampling.h"
 #include "common/truth/cone_subtraction.h"
+#include "tests/unit/figure_two.h"
 #include "tests/unit/test_meshes.h"
 
 namespace penumbra::accumulation_scenes {
@@ -30,10 +31,10 @@ inline Light areaLight(const Corners& polygon) {
 
 /// The square light of Heckbert & Herf's figure 2, with z up.
 inline Light squareLight() {
-    return areaLight({{-0.5, -0.5, 2}, {-0.5, 0.5, 2}, {0.5, 0.5, 2}, {0.5, -0.5, 2}});
+    return areaLight(figure_two::light);
 }
 
-inline const Triangle figureTriangle = {dvec3(-0.4, -0.35, 1), dvec3(0.45, -0.3, 1), dvec3(0, 0.45, 1)};
+inline const Triangle& figureTriangle = figure_two::triangle;
 
 inline Receiver receiverOn(const dvec3& corner, const dvec3& u, const dvec3& v, const glm::ivec2& texels) {
     Receiver receiver;

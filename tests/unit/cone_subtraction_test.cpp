@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/truth/polygon_light.h"
+#include "tests/unit/figure_two.h"
 #include "tests/unit/polygon_light_reference.h"
 
 namespace penumbra {
@@ -16,8 +17,7 @@ namespace {
 
 using glm::dvec3;
 
-const std::vector<dvec3> light = {{-0.5, -0.5, 2}, {-0.5, 0.5, 2}, {0.5, 0.5, 2}, {0.5, -0.5, 2}};
-const Triangle triangle = {dvec3(-0.4, -0.35, 1), dvec3(0.45, -0.3, 1), dvec3(0, 0.45, 1)};
+using figure_two::light, figure_two::triangle;
 const dvec3 up(0, 0, 1);
 const dvec3 inPenumbra(0.5, 0, 0);
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "tests/unit/figure_two.h"
 #include "tests/unit/polygon_light_reference.h"
 
 namespace penumbra {
@@ -15,9 +16,7 @@ namespace {
 
 using glm::dvec3;
 
-// Heckbert & Herf, "Simulating Soft Shadows with Graphics Hardware" (CMU-CS-97-104, 1997), figure 2.
-const std::vector<dvec3> light = {{-0.5, -0.5, 2}, {-0.5, 0.5, 2}, {0.5, 0.5, 2}, {0.5, -0.5, 2}};
-const Triangle triangle = {dvec3(-0.4, -0.35, 1), dvec3(0.45, -0.3, 1), dvec3(0, 0.45, 1)};
+using figure_two::light, figure_two::triangle;
 const dvec3 up(0, 0, 1);
 
 double visible(const dvec3& x, std::span<const Triangle> occluders) {
@@ -25,15 +24,7 @@ double visible(const dvec3& x, std::span<const Triangle> occluders) {
 }
 
 TEST(PolygonLight, GoldenValues) {
-    const struct {
-        dvec3 x;
-        double whole, visible;
-    } golden[] = {{{0, 0, 0}, 0.073477634812521, 0.010136018748940},
-                  {{0.5, 0, 0}, 0.066182613783407, 0.033582065875840},
-                  {{-0.3, 0.4, 0}, 0.066185270360017, 0.041509825007278},
-                  {{0.9, 0.9, 0}, 0.039936405170093, 0.039936405170093},
-                  {{0, -0.8, 0}, 0.056677133901376, 0.040911767947412}};
-    for (const auto& g : golden) {
+    for (const auto& g : figure_two::golden) {
         EXPECT_NEAR(formFactor(g.x, up, light), g.whole, 2e-15);  // the table has 15 decimals
         EXPECT_NEAR(visible(g.x, {&triangle, 1}), g.visible, 2e-15);
     }

@@ -3,17 +3,13 @@
 #include "common/truth/shadow_packet.h"
 
 #include <gtest/gtest.h>
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 
 #include <algorithm>
 #include <limits>
 #include <random>
 
 #include "common/truth/surface_hit.h"
+#include "tests/unit/embree_triangles.h"
 #include "tests/unit/test_meshes.h"
 
 namespace penumbra {
@@ -21,56 +17,28 @@ namespace {
 
 using LongVec = glm::vec<3, long double>;
 
-/// The scene's triangles as Embree sees them in RayTracer: float, robust.
-class FloatTriangles {
- public:
-    explicit FloatTriangles(const Scene& s) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-        RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        std::copy(s.positions.begin(), s.positions.end(),
-                  static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-                      g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, s.positions.size())));
-        std::copy(s.indices.begin(), s.indices.end(),
-                  static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-                      g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, s.triangleCount())));
-        rtcCommitGeometry(g);
-        rtcAttachGeometry(scene_, g);
-        rtcReleaseGeometry(g);
-        rtcCommitScene(scene_);
+/// What Embree finds along the rays of a packet.
+RTCRayHit16 nearest(const EmbreeTriangles& triangles, const ShadowPacket& packet) {
+    alignas(64) RTCRayHit16 found{};
+    alignas(64) int valid[16];
+    for (unsigned i = 0; i < 16; ++i) {
+        valid[i] = packet.far[i] >= 0.0f ? -1 : 0;
+        found.ray.org_x[i] = packet.originX[i], found.ray.dir_x[i] = packet.directionX[i];
+        found.ray.org_y[i] = packet.originY[i], found.ray.dir_y[i] = packet.directionY[i];
+        found.ray.org_z[i] = packet.originZ[i], found.ray.dir_z[i] = packet.directionZ[i];
+        found.ray.tfar[i] = packet.far[i];
+        found.ray.mask[i] = 0xffffffffu;
+        found.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-    ~FloatTriangles() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    FloatTriangles(const FloatTriangles&) = delete;
-    FloatTriangles& operator=(const FloatTriangles&) = delete;
-
-    RTCRayHit16 nearest(const ShadowPacket& packet) const {
-        alignas(64) RTCRayHit16 found{};
-        alignas(64) int valid[16];
-        for (unsigned i = 0; i < 16; ++i) {
-            valid[i] = packet.far[i] >= 0.0f ? -1 : 0;
-            found.ray.org_x[i] = packet.originX[i], found.ray.dir_x[i] = packet.directionX[i];
-            found.ray.org_y[i] = packet.originY[i], found.ray.dir_y[i] = packet.directionY[i];
-            found.ray.org_z[i] = packet.originZ[i], found.ray.dir_z[i] = packet.directionZ[i];
-            found.ray.tfar[i] = packet.far[i];
-            found.ray.mask[i] = 0xffffffffu;
-            found.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        }
 #if RTC_VERSION_MAJOR >= 4
-        rtcIntersect16(valid, scene_, &found, nullptr);
+    rtcIntersect16(valid, triangles.scene(), &found, nullptr);
 #else
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect16(valid, scene_, &context, &found);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect16(valid, triangles.scene(), &context, &found);
 #endif
-        return found;
-    }
-
- private:
-    RTCDevice device_ = rtcNewDevice(nullptr);
-    RTCScene scene_ = rtcNewScene(device_);
-};
+    return found;
+}
 
 /// How far from the border of a triangle a line crosses it, along the triangle, and how far off its plane the
 /// start and the end of a segment are; metres. Negative: outside, or on the wrong side.
@@ -198,14 +166,14 @@ TEST_F(WorstErrors, StayBelowWhatTheDecisionIsDerivedFor) {
     for (int trial = 0; trial < 300; ++trial) {
         const double scale = trial % 3 == 0 ? 1.0 : trial % 3 == 1 ? 1e3 : 3e-3;
         const Scene scene = scatter(scale);
-        const FloatTriangles floats(scene);
+        const EmbreeTriangles floats(scene);
         const double reach = largestCoordinate(scene.bounds);
         for (std::uint32_t t = 1; t < scene.triangleCount(); ++t) {
             std::array<ShadowRay, ShadowPacket::size> rays;
             for (ShadowRay& ray : rays) ray = towards(scene, t, scale);
             ShadowPacket packet;
             roundToFloat(rays, reach, packet);
-            const RTCRayHit16 found = floats.nearest(packet);
+            const RTCRayHit16 found = nearest(floats, packet);
             for (unsigned i = 0; i < rays.size(); ++i)
                 if (found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
                     worst.take(rays[i], scene, reach, packet, i, FloatHit(found, i));
