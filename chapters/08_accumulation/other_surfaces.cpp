@@ -16,34 +16,36 @@ std::vector<IndexRange> rangesOf(const std::vector<std::uint32_t>& triangles) {
     return ranges;
 }
 
-OtherSurfaces::OtherSurfaces(const Scene& scene, const std::vector<Receiver>& receivers)
-    : other_(scene.triangleCount(), true) {
+OtherSurfaces::OtherSurfaces(const Frame& frame, const std::vector<Receiver>& receivers) {
+    const Scene& scene = frame.scene;
+    std::vector<bool> other(scene.triangleCount(), true);
     for (const Receiver& receiver : receivers)
-        for (const std::uint32_t triangle : receiver.triangles) other_[triangle] = false;
-    count_ = std::count(other_.begin(), other_.end(), true);
+        for (const std::uint32_t triangle : receiver.triangles) other[triangle] = false;
+    count_ = std::count(other.begin(), other.end(), true);
     for (const Light& light : scene.lights) {
         if (light.part < 0) continue;
         const Part& part = scene.parts[std::size_t(light.part)];
-        const auto first = other_.begin() + part.firstTriangle;
+        const auto first = other.begin() + part.firstTriangle;
         count_ -= std::count(first, first + part.triangleCount, true);
     }
+
+    const Frustum frustum(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y));
+    const VisibleClusters visible = frame.skip ? visibleClusters(scene, frustum) : allClusters(scene);
+    std::map<int, std::pair<int, std::vector<std::uint32_t>>> byMaterial;  // a part of it, its triangles
+    for (const std::uint32_t index : visible.clusters) {
+        const Cluster& cluster = scene.clusters[index];
+        auto& [part, triangles] = byMaterial[scene.parts[cluster.part].material];
+        part = int(cluster.part);
+        for (std::uint32_t t = cluster.firstTriangle; t < cluster.firstTriangle + cluster.triangleCount; ++t)
+            if (other[t]) triangles.push_back(t);
+    }
+    for (const auto& [material, entry] : byMaterial)
+        if (!entry.second.empty()) seen_.push_back({entry.first, rangesOf(entry.second)});
 }
 
 void OtherSurfaces::draw(Program& program, const Frame& frame) const {
-    const Frustum seen(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y));
-    const VisibleClusters visible =
-        frame.skip ? visibleClusters(frame.scene, seen) : allClusters(frame.scene);
-    std::map<int, std::pair<int, std::vector<std::uint32_t>>> byMaterial;  // a part of it, its triangles
-    for (const std::uint32_t index : visible.clusters) {
-        const Cluster& cluster = frame.scene.clusters[index];
-        auto& [part, triangles] = byMaterial[frame.scene.parts[cluster.part].material];
-        part = int(cluster.part);
-        for (std::uint32_t t = cluster.firstTriangle; t < cluster.firstTriangle + cluster.triangleCount; ++t)
-            if (other_[t]) triangles.push_back(t);
-    }
-    for (const auto& [material, entry] : byMaterial) {
-        if (entry.second.empty()) continue;
-        const DrawCounts drawn = frame.gpu->drawShaded(program, entry.first, rangesOf(entry.second));
+    for (const Run& run : seen_) {
+        const DrawCounts drawn = frame.gpu->drawShaded(program, run.part, run.ranges);
         frame.work["triangles_shaded"] += std::int64_t(drawn.triangles);
         frame.work["draw_calls"] += std::int64_t(drawn.drawCalls);
     }

@@ -11,7 +11,8 @@ namespace penumbra {
 /// The triangles that belong to no receiver: curved, small, or facing no light.
 class OtherSurfaces {
  public:
-    OtherSurfaces(const Scene& scene, const std::vector<Receiver>& receivers);
+    /// Of the frame's scene; sorts out once what all draws of the frame share.
+    OtherSurfaces(const Frame& frame, const std::vector<Receiver>& receivers);
 
     /// How many there are, lights' own surfaces not counted: those receive nothing.
     std::int64_t count() const { return count_; }
@@ -20,7 +21,12 @@ class OtherSurfaces {
     void draw(Program& program, const Frame& frame) const;
 
  private:
-    std::vector<bool> other_;  ///< by triangle
+    /// One material's triangles, and a part that has it.
+    struct Run {
+        int part = 0;
+        std::vector<IndexRange> ranges;
+    };
+    std::vector<Run> seen_;
     std::int64_t count_ = 0;
 };
 

@@ -44,7 +44,7 @@ void Picture::setView(Program& program, const Frame& frame, const AccumulationOp
 void Picture::draw(const Frame& frame, const AccumulationOptions& options, const ReceivedLight* received) {
     std::vector<int> lights = options.chosenLights(frame.scene);
     if (frame.view == "visibility" || frame.view == "work") lights.resize(1);  // of the first
-    const OtherSurfaces others(frame.scene, received ? received->receivers() : std::vector<Receiver>{});
+    const OtherSurfaces others(frame, received ? received->receivers() : std::vector<Receiver>{});
     clearPicture(frame, options.maps);
     for (std::size_t i = 0; i < lights.size(); ++i) drawOthers(frame, options, others, lights[i], i == 0);
     if (received) drawReceivers(frame, options, *received);

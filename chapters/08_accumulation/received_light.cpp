@@ -6,6 +6,17 @@
 
 namespace penumbra {
 
+namespace {
+
+/// A light of a frame, and its shadow on each receiver.
+struct LitLight {
+    std::vector<StoredShadow>& shadows;
+    const Light& whole;
+    Light lit;
+};
+
+}  // namespace
+
 ReceivedLight::ReceivedLight() : compose_("common/fullscreen.vert", "08_accumulation/compose.frag") {}
 
 void ReceivedLight::reset() {
@@ -39,15 +50,17 @@ void ReceivedLight::update(const Frame& frame, const AccumulationOptions& option
     findReceivers(frame, options);
     frame.work["occluders_drawn"] += 0;
     const bool visibility = output != Output::irradiance;
+    std::vector<LitLight> lights;
+    for (auto& [index, shadows] : shadows_) {
+        const Light& whole = frame.scene.lights[std::size_t(index)];
+        lights.push_back({shadows, whole, options.lit(frame.scene, index)});
+        if (visibility) break;  // of the first light
+    }
     for (std::size_t i = 0; i < receivers_.size(); ++i) {
-        std::vector<Light> lit;
         bool arrives = false;
-        for (auto& [index, shadows] : shadows_) {
-            const Light& whole = frame.scene.lights[std::size_t(index)];
-            lit.push_back(options.lit(frame.scene, index));
-            shadows[i].update({frame, options, receivers_[i], whole, lit.back()}, passes_);
-            arrives = arrives || shadows[i].plan().receives;
-            if (visibility) break;  // of the first light
+        for (const LitLight& light : lights) {
+            light.shadows[i].update({frame, options, receivers_[i], light.whole, light.lit}, passes_);
+            arrives = arrives || light.shadows[i].plan().receives;
         }
         if (!arrives) {
             textures_[i].reset();
@@ -60,13 +73,9 @@ void ReceivedLight::update(const Frame& frame, const AccumulationOptions& option
         if (!textures_[i])
             textures_[i].emplace(receivers_[i].texels, sumFormat(frame.context->capabilities(), "32f"));
         textures_[i]->clear(glm::vec4(0.0f));
-        std::size_t k = 0;
-        for (auto& [index, shadows] : shadows_) {
-            if (k >= lit.size()) break;
-            const Light& whole = frame.scene.lights[std::size_t(index)];
-            compose({frame, options, receivers_[i], whole, lit[k]}, shadows[i], output, *textures_[i]);
-            ++k;
-        }
+        for (const LitLight& light : lights)
+            compose({frame, options, receivers_[i], light.whole, light.lit}, light.shadows[i], output,
+                    *textures_[i]);
     }
     const bool relit = !lightKey_.empty() && lightKey_ != options.lightKey();
     if (relit && frame.work["occluders_drawn"] == 0) frame.work["relit"] = 1;
