@@ -11,7 +11,7 @@ namespace penumbra {
 
 namespace {
 
-constexpr int pointsInLayer = 32;
+constexpr int pointsInLayer = MaskLayers::pointsInLayer;
 /// Of the resolve pass: 192 light points, since OpenGL ES promises 224 vectors to a fragment shader.
 constexpr int layersInPass = 6;
 
@@ -98,9 +98,8 @@ void MaskPass::resolve(const Receiver& receiver, const ShadowPlan& plan,
     glEnable(GL_DEPTH_TEST);
     // [begin:resolve]
     // What no shadow reaches is lit, and its depth 0 keeps it out of the passes below.
-    const bool known = !everywhere;
-    sums.clear(known ? 1.0f : 0.0f, known ? 0.0f : 1.0f);
-    if (known) {
+    sums.clear(everywhere ? 0.0f : 1.0f, everywhere ? 1.0f : 0.0f);
+    if (!everywhere) {
         Program& classify = classify_.with(defines);
         classify.setTexture("uMasks", GL_TEXTURE_2D_ARRAY, masks.texture());
         classify.set("uPoints", int(plan.points.size()));

@@ -25,17 +25,15 @@ glm::dmat4 fromRows(const glm::dvec4& x, const glm::dvec4& y, const glm::dvec4& 
 /// proportional to.
 double magnitude(const Receiver& receiver, const glm::dvec4& row) {
     double largest = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        const glm::dvec3 p = receiver.at({i & 1, i >> 1});
+    for (const glm::dvec3& p : receiver.corners())
         largest = std::max(largest, sumOfMagnitudes(glm::dvec3(row) * p) + std::abs(row.w));
-    }
     return largest;
 }
 
 /// How far floats may lie from the plane they should lie in, metres.
 double flatness(const Receiver& receiver) {
     double largest = 0.0;
-    for (int i = 0; i < 4; ++i) largest = std::max(largest, sumOfMagnitudes(receiver.at({i & 1, i >> 1})));
+    for (const glm::dvec3& p : receiver.corners()) largest = std::max(largest, sumOfMagnitudes(p));
     return 2.0 * floatRounding * largest;
 }
 

@@ -20,14 +20,10 @@ Polygon3 flipped(const Polygon3& polygon) {
     return result;
 }
 
-std::array<glm::dvec3, 4> corners(const Receiver& receiver) {
-    return {receiver.at({0, 0}), receiver.at({1, 0}), receiver.at({1, 1}), receiver.at({0, 1})};
-}
-
 }  // namespace
 
 Reach::Reach(const Receiver& receiver, const Light& light)
-    : Reach(corners(receiver), receiver.normal, light) {}
+    : Reach(receiver.corners(), receiver.normal, light) {}
 
 Reach::Reach(std::span<const glm::dvec3> area, const glm::dvec3& normal, const Light& light) {
     const Polygon3 whole(area);

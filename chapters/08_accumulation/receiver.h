@@ -3,6 +3,7 @@
 // 1997).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -25,6 +26,8 @@ struct Receiver {
     std::vector<std::uint32_t> triangles;  ///< of the polygon, ascending: indices into Scene::indices / 3
 
     glm::dvec3 at(const glm::dvec2& uv) const { return corner + uv.x * uEdge + uv.y * vEdge; }
+    /// Of the parallelogram, counter-clockwise about the normal.
+    std::array<glm::dvec3, 4> corners() const { return {at({0, 0}), at({1, 0}), at({1, 1}), at({0, 1})}; }
     /// Texel (column, row) has its centre at ((column + 1/2) / texels.x, (row + 1/2) / texels.y).
     glm::dvec3 texelCentre(int column, int row) const {
         return at({(column + 0.5) / texels.x, (row + 0.5) / texels.y});

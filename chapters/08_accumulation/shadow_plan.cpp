@@ -56,8 +56,7 @@ double distanceTo(const Receiver& receiver, const glm::dvec3& p) {
     const glm::dvec2 uv = receiver.uv(p);
     if (uv.x >= 0.0 && uv.x <= 1.0 && uv.y >= 0.0 && uv.y <= 1.0) return 0.0;
     const glm::dvec3 foot = p - receiver.height(p) * receiver.normal;
-    const std::array<glm::dvec3, 4> corners{receiver.at({0, 0}), receiver.at({1, 0}), receiver.at({1, 1}),
-                                            receiver.at({0, 1})};
+    const std::array<glm::dvec3, 4> corners = receiver.corners();
     double nearest = glm::length(foot - corners[0]);
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec3 a = corners[i], edge = corners[(i + 1) % 4] - a;

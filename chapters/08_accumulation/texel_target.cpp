@@ -132,7 +132,7 @@ std::vector<glm::vec2> PackedSums::read() const {
 }
 
 MaskLayers::MaskLayers(const glm::ivec2& size, int points, BitSetting setting)
-    : size_(size), points_(points), layers_((points + 31) / 32), setting_(setting) {
+    : size_(size), points_(points), layers_((points + pointsInLayer - 1) / pointsInLayer), setting_(setting) {
     const GLenum format = setting == BitSetting::logicOp ? GL_R32UI : GL_RGBA8;
     const Transfer transfer = transferOf(format);
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.id());

@@ -77,6 +77,8 @@ enum class BitSetting {
 /// hidden.
 class MaskLayers {
  public:
+    static constexpr int pointsInLayer = 32;
+
     MaskLayers(const glm::ivec2& size, int points, BitSetting setting);
     /// Makes `layer` the target of drawing, all of its bits clear.
     void bindCleared(int layer) const;
