@@ -15,12 +15,13 @@ LARGER_STEP = "**A larger step:**"
 
 # Which folders of common/ a folder of common/ may include: "math <- image <- scene <- truth; gl; app <- all".
 BELOW = {
+    "system": {"system"},
     "text": {"text"},
     "math": {"math", "text"},
-    "image": {"image", "math", "text"},
+    "image": {"image", "math", "system", "text"},
     "scene": {"scene", "image", "math", "text"},
     "truth": {"truth", "scene", "image", "math", "text"},
-    "gl": {"gl", "image", "math", "text"},
+    "gl": {"gl", "image", "math", "system", "text"},
     "app": {"app", "gl", "image", "math", "scene", "text", "truth"},
 }
 GPU_SCENE = "common/scene/gpu_*"  # the one place where scene and OpenGL meet
@@ -28,7 +29,7 @@ GPU_SCENE = "common/scene/gpu_*"  # the one place where scene and OpenGL meet
 # Where a library may be included: elsewhere it would cost compile time, or tie what draws to what it does not need.
 LIBRARIES = {
     "embree*": ("common/truth/*.cpp",),
-    "OpenImageIO/*": ("common/image/*.cpp",),
+    "OpenImageIO/*": ("common/image/oiio/*.cpp",),
     "tiny_gltf.h": ("common/scene/gltf_*",),
     "meshoptimizer.h": ("common/scene/*.cpp", "assets/*.cpp"),
     "CLI/*": ("common/app/*.cpp",),

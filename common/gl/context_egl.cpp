@@ -8,7 +8,7 @@
 
 #include "common/error.h"
 #include "common/gl/context_backends.h"
-#include "common/gl/dynamic_library.h"
+#include "common/system/dynamic_library.h"
 
 namespace penumbra {
 namespace {

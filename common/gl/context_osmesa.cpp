@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "common/gl/dynamic_library.h"
+#include "common/system/dynamic_library.h"
 
 namespace penumbra {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/gl/dynamic_library.h"
+#include "common/system/dynamic_library.h"
 
 #include <dlfcn.h>
 

@@ -1,4 +1,4 @@
-// A shared library that may be missing; private to common/gl.
+// A shared library that may be missing, or that is costly to load and often not needed.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace penumbra {
 
-/// Opened at run time, so that a program starts where it is not installed. Never closed: Mesa registers exit
-/// handlers that must still be there when the process ends.
+/// Opened at run time, so that a program starts where it is not installed. Never closed: libraries register
+/// exit handlers that must still be there when the process ends.
 class DynamicLibrary {
  public:
     /// Opens the first of `names` that is there; the environment variable `overrideVariable`, when set,
