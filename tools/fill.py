@@ -129,7 +129,10 @@ def table(marker, page):
     if described.name in page.tables:
         raise PageError(f"{marker.where}: two tables of this page are called {described.name}")
     rows = shown
-    if not (page.check and page.fast):
+    if page.check and not page.fast:
+        for _, line in described.rows:
+            page.programs.program(line, marker.where)
+    if not (page.check and (page.fast or not described.compared())):
         fresh = tables.cells(described, lambda line: page.programs.report(line, marker.where), marker.where)
         changes = tables.differences(described, shown, fresh)
         if page.check and changes:

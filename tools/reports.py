@@ -3,6 +3,7 @@ import hashlib
 import json
 import shlex
 import subprocess
+import threading
 from functools import lru_cache
 from pathlib import Path
 
@@ -60,7 +61,7 @@ class Programs:
         result = self.resultFile(command, suffix)
         if not result.is_file():
             result.parent.mkdir(parents=True, exist_ok=True)
-            temporary = result.with_name("new_" + result.name)
+            temporary = result.with_name(f"new_{threading.get_ident()}_{result.name}")  # two pages may want the same
             flags = [flag.replace("{}", str(temporary)) for flag in outputFlags]
             words = [program, *shlex.split(command)[1:], *flags]
             ran = subprocess.run(words, cwd=self.root, capture_output=True, text=True)

@@ -28,6 +28,10 @@ class Table:
     columns: list = field(default_factory=list)
     rows: list = field(default_factory=list)  # (label, command line)
 
+    def compared(self):
+        """Is anything in it the same in every run?"""
+        return any(column.compared(command) for column in self.columns for _, command in self.rows)
+
 
 def parse(argument, where):
     first, *lines = argument.split("\n")
