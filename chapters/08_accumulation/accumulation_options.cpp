@@ -37,12 +37,13 @@ void AccumulationOptions::declare(Parameters& parameters) {
     parameters.add("samples", samples, 1, 4096, "",
                    "points of an area light; 4: hard edges side by side, 1024: smooth");
     parameters.add("pattern", pattern, patternNames,
-                   "how the points are spread; regular: the paper's grid, with bands along its rows");
+                   "how the points are spread; fibonacci: least error; regular: the paper's grid, bands");
     parameters.add(
         "method", method, {"accumulate", "mask", "exact", "shadow-maps"},
         "accumulate: the paper's; mask: 32 points a draw call; exact: cone subtraction, no points");
-    parameters.add("target", target, {"8", "16f", "32f"},
-                   "bits of the sums of --method accumulate; 8: rounded away, 16f: not enough above 64");
+    parameters.add("target", target, {"8", "16f", "32f", "rg32f"},
+                   "bits of the sums of --method accumulate; 8: rounded away, 16f: not enough above 64, "
+                   "rg32f: two channels, not the four of an accumulation buffer");
     parameters.add("weights", weights, {"ratio", "sum", "equal"},
                    "sum: the paper's, noise where nothing shadows; equal: wrong near a large light");
     parameters.add("light-part", lightPart, {"all", "left", "right", "quarter"},

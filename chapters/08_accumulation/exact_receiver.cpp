@@ -5,7 +5,6 @@
 
 #include "chapters/08_accumulation/plane_light.h"
 #include "chapters/08_accumulation/texel_blocks.h"
-#include "common/truth/parallel.h"
 
 namespace penumbra {
 
@@ -37,7 +36,8 @@ std::vector<double> unoccludedIrradiance(const Receiver& receiver, const Light& 
 }
 
 ExactIrradiance exactIrradiance(const Receiver& receiver, const Light& light,
-                                std::span<const Triangle> occluders, bool cull) {
+                                std::span<const Triangle> occluders, bool cull,
+                                const ProgressCallback& progress) {
     // Enough bands for all cores, few enough that each may sort out most triangles at once.
     constexpr int band = 32, block = 8;
     const PlaneLight lit(receiver, light);
@@ -54,13 +54,14 @@ ExactIrradiance exactIrradiance(const Receiver& receiver, const Light& light,
         fill(receiver, texels, exact.values,
              [&](const glm::dvec3& x) { return lit.visible(x, texels.occluders); });
     };
-    parallelRows((receiver.texels.y + band - 1) / band, [&](int i) {
+    const auto renderBand = [&](int i) {
         const int rows = std::min(band, receiver.texels.y - i * band);
         if (cull)
             visitBlocks(receiver, light, occluders, {block, i * band, rows}, render);
         else
             render({{0, i * band}, {receiver.texels.x, rows}, occluders});
-    });
+    };
+    parallelRows((receiver.texels.y + band - 1) / band, renderBand, progress);
     exact.shadowTexels = shadowTexels;
     exact.triangleTests = triangleTests;
     return exact;

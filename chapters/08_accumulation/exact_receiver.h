@@ -8,6 +8,7 @@
 #include "chapters/08_accumulation/reach.h"
 #include "chapters/08_accumulation/receiver.h"
 #include "common/scene/scene.h"
+#include "common/truth/parallel.h"
 
 namespace penumbra {
 
@@ -26,6 +27,7 @@ struct ExactIrradiance {
 /// the others; exactly 0 behind one triangle. `cull`: each texel looks only at the triangles that reach into
 /// its block of texels, most at none; the result is the same to the bit.
 ExactIrradiance exactIrradiance(const Receiver& receiver, const Light& light,
-                                std::span<const Triangle> occluders, bool cull = true);
+                                std::span<const Triangle> occluders, bool cull = true,
+                                const ProgressCallback& progress = {});
 
 }  // namespace penumbra

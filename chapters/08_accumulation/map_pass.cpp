@@ -46,7 +46,10 @@ const TexelTarget& MapPass::run(const Frame& frame, const ShadowOptions& options
     drawSeen(camera_);
     const float none[4] = {0.0f, 0.0f, 0.0f, 0.0f};  // a shader without an output leaves anything there
     glClearBufferfv(GL_COLOR, 0, none);
-    for (const LightPoint& point : points) add(frame, options, pointOf(light, point), drawSeen);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        add(frame, options, pointOf(light, points[i]), drawSeen);
+        if (frame.progress) frame.progress(double(i + 1) / double(points.size()));
+    }
     // [end:shadow-maps]
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
     glViewport(0, 0, frame.size.x, frame.size.y);

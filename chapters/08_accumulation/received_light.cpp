@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "chapters/08_accumulation/texture_room.h"
 #include "common/app/pass_timer.h"
 
 namespace penumbra {
@@ -48,6 +49,7 @@ std::string ReceivedLight::composedKey(const AccumulationOptions& options, Outpu
 
 void ReceivedLight::update(const Frame& frame, const AccumulationOptions& options, Output output) {
     findReceivers(frame, options);
+    requireTextureRoom(options, frame.scene, receivers_);
     frame.work["occluders_drawn"] += 0;
     const bool visibility = output != Output::irradiance;
     std::vector<LitLight> lights;
@@ -58,8 +60,16 @@ void ReceivedLight::update(const Frame& frame, const AccumulationOptions& option
     }
     for (std::size_t i = 0; i < receivers_.size(); ++i) {
         bool arrives = false;
-        for (const LitLight& light : lights) {
-            light.shadows[i].update({frame, options, receivers_[i], light.whole, light.lit}, passes_);
+        for (std::size_t k = 0; k < lights.size(); ++k) {
+            const LitLight& light = lights[k];
+            const auto progress = [&](double fraction) {
+                if (frame.progress)
+                    frame.progress((double(i * lights.size() + k) + fraction) /
+                                   double(receivers_.size() * lights.size()));
+            };
+            light.shadows[i].update({frame, options, receivers_[i], light.whole, light.lit, progress},
+                                    passes_);
+            progress(1.0);
             arrives = arrives || light.shadows[i].plan().receives;
         }
         if (!arrives) {

@@ -11,6 +11,7 @@ namespace penumbra {
 GLenum sumFormat(const Capabilities& capabilities, const std::string& target) {
     // Two sums in four channels: what an accumulation buffer has, and what can be drawn into everywhere.
     if (target == "8") return GL_RGBA8;
+    if (target == "rg32f" && capabilities.floatBlend) return GL_RG32F;
     return target == "16f" || !capabilities.floatBlend ? GL_RGBA16F : GL_RGBA32F;
 }
 
@@ -109,8 +110,8 @@ void StoredShadow::addWeights(const Request& request, ShadowPasses& passes) {
 
 void StoredShadow::solve(const Request& request) {
     const PassScope scope(request.frame.passTimer, "exact");
-    const ExactIrradiance visible =
-        exactIrradiance(request.receiver, request.lit, plan_.occluders.reaching, request.frame.skip);
+    const ExactIrradiance visible = exactIrradiance(request.receiver, request.lit, plan_.occluders.reaching,
+                                                    request.frame.skip, request.progress);
     const std::vector<double> all = unoccludedIrradiance(request.receiver, request.lit);
     std::vector<float> values;
     values.reserve(4 * all.size());

@@ -26,6 +26,7 @@ class StoredShadow {
         const Receiver& receiver;
         const Light& whole;
         const Light& lit;
+        ProgressCallback progress{};  ///< of this light on this receiver alone
     };
 
     /// Makes `sums` right, drawing occluders only if geometry or points changed. Counts what it did.

@@ -19,6 +19,8 @@ Transfer transferOf(GLenum format) {
             return {GL_RED, GL_UNSIGNED_BYTE};
         case GL_R32F:
             return {GL_RED, GL_FLOAT};
+        case GL_RG32F:
+            return {GL_RG, GL_FLOAT};
         case GL_RGBA8:
             return {GL_RGBA, GL_UNSIGNED_BYTE};
         case GL_R32UI:

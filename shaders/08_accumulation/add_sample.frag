@@ -9,7 +9,7 @@ layout(location = 0) out vec4 outSums;
 // [begin:add]
 void main() {
     vec2 p = pointOfTexel(gl_FragCoord.xy);
-    float f = weight(uLightPoint, vec4(p.x), vec4(p.y)).x;
+    float f = weight(uLightPoint, vec4(p.x), p.y).x;
     float V = 1.0 - texelFetch(uCovered, ivec2(gl_FragCoord.xy), 0).r;
     outSums = vec4(V * f, f, 0.0, 0.0);
 }

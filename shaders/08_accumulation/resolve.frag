@@ -12,14 +12,13 @@ layout(location = 1) out vec4 outAll;
 
 // [begin:resolve]
 void main() {
-    vec2 first = pointOfTexel(vec2(4.0 * floor(gl_FragCoord.x) + 0.5, gl_FragCoord.y)), step = uUEdge / uTexels.x;
-    vec4 x = first.x + step.x * vec4(0.0, 1.0, 2.0, 3.0);
-    vec4 y = first.y + step.y * vec4(0.0, 1.0, 2.0, 3.0);
+    vec2 first = pointOfTexel(vec2(4.0 * floor(gl_FragCoord.x) + 0.5, gl_FragCoord.y));
+    vec4 x = first.x + uUEdge.x / uTexels.x * vec4(0.0, 1.0, 2.0, 3.0);
     vec4 seen = vec4(0.0), all = vec4(0.0);
     for (int layer = 0; layer < uLayers; ++layer) {
         uvec4 words = fourWords(ivec2(gl_FragCoord.xy), uFirstLayer + layer);
         for (int i = 0; i < 32; ++i) {
-            vec4 f = weight(uLightPoints[32 * layer + i], x, y);
+            vec4 f = weight(uLightPoints[32 * layer + i], x, first.y);
             bvec4 hidden = notEqual(words & (1u << uint(i)), uvec4(0u));
             seen += mix(f, vec4(0.0), hidden);
             all += f;

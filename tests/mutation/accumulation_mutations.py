@@ -54,11 +54,11 @@ MUTATIONS = {
     "OnePolygonMissedIsEnough": (CHAPTER + "reach.cpp", "reach", [("std::all_of(pieces_", "std::any_of(pieces_")]),
     "InwardIsOutward": (CHAPTER + "reach.cpp", "reach", [("glm::cross(b, a)", "glm::cross(a, b)")]),
     "BoxesAreTheirCentres": (CHAPTER + "reach.cpp", "reach", [("+ glm::dot(glm::abs(plane.inward), half)", "")]),
-    "CentresForTexels": (CHAPTER + "block_map.cpp", "blocks", [("first, size, 0.5)", "first, size, 0.0)")]),
+    "CentresForTexels": (CHAPTER + "block_map.cpp", "projection", [("first, size, 0.5)", "first, size, 0.0)")]),
     "NearCutsOccluders": (CHAPTER + "reach.cpp", "reach", [("0.9 * smallest", "1.1 * smallest")]),
     "OwnTrianglesShadow": (
         CHAPTER + "reach.cpp", "reach", [("-2.0 * 0x1p-24 * scale_", "0.0")]),
-    "BlocksOverlap": (CHAPTER + "texel_blocks.cpp", "blocks", [("middle[axis] += near[axis]", "middle[axis] += near[axis] - 1")]),
+    "BlocksOverlap": (CHAPTER + "texel_blocks.cpp", "projection", [("middle[axis] += near[axis]", "middle[axis] += near[axis] - 1")]),
     "EmissionCountsTwice": (CHAPTER + "plane_light.cpp", "exact_receiver", [("facingIrradiance(unit_, x)", "facingIrradiance(light_, x)")]),
     "NoCosine": (
         CHAPTER + "plane_light.cpp", "exact_receiver",
@@ -67,12 +67,14 @@ MUTATIONS = {
     "OccludersBeyondALamp": (
         CHAPTER + "plane_light.cpp", "exact_receiver", [("light_.type == LightType::directional;", "true;")]),
     "HalfOfTheTree": (
-        CHAPTER + "occluder_tree.cpp", "blocks",
+        CHAPTER + "occluder_tree.cpp", "projection",
         [("return reachesInto(reach, 2 * node) || reachesInto(reach, 2 * node + 1);", "return reachesInto(reach, 2 * node);")]),
     "InterpolatedAnyway": (
         CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("<= 2e-8 * exact", "<= 1.0")]),
     "AcrossTheLightsPlane": (
         CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("!(value > 0.0)", "false"), ("<= 2e-8 * exact", "<= 1.0")]),
+    "BandsOverwriteEachOther": (
+        CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("int j = first - row; j < tile", "int j = 0; j < tile")]),
     "OddTexelsAreLeftOut": (
         CHAPTER + "unoccluded_texture.cpp", "exact_receiver", [("std::min(column, texels.x - tile)", "column / tile * tile * (column + tile <= texels.x)")]),
 }

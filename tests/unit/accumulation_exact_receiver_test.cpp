@@ -134,6 +134,21 @@ TEST(AccumulationExact, InterpolatedTexturesAreWithinFloatRounding) {
     for (std::size_t i = 0; i < exact.size(); ++i) ASSERT_NEAR(floats[i] / exact[i], 1.0, 6.2e-8);
 }
 
+// The last tiles overlap those before them, perhaps on another thread: each row belongs to one band. 16 rows
+// are the same with 8 more below them as without, where else they would be interpolated from row 8 on.
+TEST(AccumulationExact, RowsBelongToOneBandOfTiles) {
+    for (const double height : {1.5, 2.0, 3.0}) {
+        const Light light =
+            areaLight({{-0.5, -0.5, height}, {-0.5, 0.5, height}, {0.5, 0.5, height}, {0.5, -0.5, height}});
+        const dvec3 corner(-1.2, -1.2, 0);
+        const std::vector<float> low = unoccludedTexture(receiverOn(corner, {2, 0, 0}, {0, 1.6, 0}, {64, 16}),
+                                                         light),
+                                 high = unoccludedTexture(
+                                     receiverOn(corner, {2, 0, 0}, {0, 2.4, 0}, {64, 24}), light);
+        for (std::size_t i = 0; i < low.size(); ++i) ASSERT_EQ(high[i], low[i]) << height << " " << i;
+    }
+}
+
 TEST(AccumulationExact, UmbraIsExactlyDark) {
     const Receiver floor = receiverOn({-0.1, -0.1, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {32, 32});
     const Triangle lid = {dvec3(-3, -3, 1), dvec3(3, -3, 1), dvec3(0, 4, 1)};
