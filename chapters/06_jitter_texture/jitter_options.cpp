@@ -55,6 +55,8 @@ void JitterOptions::set(Program& program, const ShadowMap& map, const LightFrust
         held_ = wanted;
     }
     if (method == "texture") program.setTexture("uJitter", GL_TEXTURE_3D, texture_->id());
+    program.fix({"uFarther", "uOutsideLit", "uBehindLit", "uLightType", "uFollowPlane", "uBias", "uSamples",
+                 "uSnap", "uQuantum"});
 }
 
 void JitterOptions::reset() {

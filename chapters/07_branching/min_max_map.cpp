@@ -19,6 +19,8 @@ void MinMaxMap::Target::provide(const glm::ivec2& wanted) {
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32I, size.x, size.y, 0, GL_RGBA_INTEGER, GL_INT, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
     requireCompleteFramebuffer("minimum-maximum map");
@@ -40,6 +42,8 @@ void MinMaxMap::build(const ShadowMap& map, DepthRange range, const std::array<g
     window_ = int(std::ceil(1.0f + 2.0f * reach / block));
     before_ = int(std::ceil(reach / block));
     const int count = (map.size() + block - 1) / block;
+    texelFromSt_ =
+        glm::vec2(float(map.size()), float(block * before_) - reach) / float(block * (count + before_));
     blockwise_.provide({count, count});
     along_.provide({count + before_, count});
     dilated_.provide({count + before_, count + before_});
@@ -47,53 +51,57 @@ void MinMaxMap::build(const ShadowMap& map, DepthRange range, const std::array<g
     GLint viewport[4];
     glGetIntegerv(GL_VIEWPORT, viewport);
     glDisable(GL_DEPTH_TEST);
-    Program& blocks = blocksOf(range);
-    blocks.setTexture("uShadowMap", GL_TEXTURE_2D, map.texture());
-    blocks.set("uSlope0", slopes[0]);
-    blocks.set("uSlope1", slopes[1]);
-    blocks.set("uSlope2", slopes[2]);
-    blocks.prepareToDraw();
-    blockwise_.bind();
-    triangle_.draw();
-    dilate(blockwise_, along_, {1, 0});
-    dilate(along_, dilated_, {0, 1});
+    held_ = wanted;
+    reduceToBlocks(map, range);
+    dilate(blockwise_, along_, false, map.size());
+    dilate(along_, dilated_, true, map.size());
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
     glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
-    held_ = wanted;
     frame.work["min_max_maps_built"] += 1;
 }
 // [end:build]
 
-Program& MinMaxMap::blocksOf(DepthRange range) {
+void MinMaxMap::reduceToBlocks(const ShadowMap& map, DepthRange range) {
     std::vector<std::string> defines;
     if (gather_) defines.push_back("USE_GATHER");
     if (range == DepthRange::reversed) defines.push_back("REVERSED");
-    return blocks_.with(defines);
+    Program& program = blocks_.with(defines);
+    program.setTexture("uShadowMap", GL_TEXTURE_2D, map.texture());
+    setSlopes(program);
+    program.prepareToDraw();
+    blockwise_.bind();
+    triangle_.draw();
+}
+
+void MinMaxMap::dilate(const Target& from, const Target& to, bool alongT, int mapSize) {
+    std::vector<std::string> defines{"COUNT " + std::to_string(window_)};
+    if (alongT) defines.push_back("ALONG_T");
+    Program& program = dilate_.with(defines);
+    program.setTexture("uBlocks", GL_TEXTURE_2D, from.texture.id());
+    program.set("uBefore", before_);
+    program.set("uMapSize", mapSize);
+    setSlopes(program);
+    program.prepareToDraw();
+    to.bind();
+    triangle_.draw();
+}
+
+void MinMaxMap::setSlopes(Program& program) const {
+    program.set("uSlope0", held_->slopes[0]);
+    program.set("uSlope1", held_->slopes[1]);
+    program.set("uSlope2", held_->slopes[2]);
 }
 
 std::vector<Program*> MinMaxMap::programs() {
-    std::vector<Program*> all = blocks_.compiled();
-    all.push_back(&dilate_);
+    std::vector<Program*> all = blocks_.compiled(), dilations = dilate_.compiled();
+    all.insert(all.end(), dilations.begin(), dilations.end());
     return all;
-}
-
-void MinMaxMap::dilate(const Target& from, const Target& to, const glm::ivec2& direction) {
-    dilate_.setTexture("uBlocks", GL_TEXTURE_2D, from.texture.id());
-    dilate_.set("uDirection", direction);
-    dilate_.set("uCount", window_);
-    dilate_.set("uBefore", before_);
-    dilate_.prepareToDraw();
-    to.bind();
-    triangle_.draw();
 }
 
 void MinMaxMap::set(Program& program) const {
     program.setTexture("uMinMax", GL_TEXTURE_2D, texture());
     program.set("uReach", held_->reach);
-    program.set("uBefore", before_);
-    program.set("uSlope0", held_->slopes[0]);
-    program.set("uSlope1", held_->slopes[1]);
-    program.set("uSlope2", held_->slopes[2]);
+    program.set("uWindow", texelFromSt_);
 }
 
 }  // namespace penumbra

@@ -12,7 +12,8 @@
 namespace penumbra {
 
 /// Blocks of 8 x 8 texels, dilated by the kernel's reach: texel i stands for the blocks from i - before() on,
-/// `window()` of them in each direction. Three minima, of depth measured from three planes, and a maximum.
+/// `window()` of them in each direction. A minimum, of depth measured from one of three planes, that plane,
+/// and a maximum.
 ///
 /// Guennebaud, Barthe & Paulin (2006, EGSR) and Decoret (2005, "N-buffers", Eurographics) keep minima and
 /// maxima for kernels of all sizes; for one size a window of that size is tighter and takes one look-up.
@@ -51,16 +52,17 @@ class MinMaxMap {
         float reach;
         bool operator==(const Key&) const = default;
     };
-    Program& blocksOf(DepthRange range);
-    void dilate(const Target& from, const Target& to, const glm::ivec2& direction);
+    void reduceToBlocks(const ShadowMap& map, DepthRange range);
+    void dilate(const Target& from, const Target& to, bool alongT, int mapSize);
+    void setSlopes(Program& program) const;
 
     bool gather_;
-    ProgramVariants blocks_;
-    Program dilate_;
+    ProgramVariants blocks_, dilate_;
     FullscreenTriangle triangle_;
     Target blockwise_, along_, dilated_;
     std::optional<Key> held_;
     int window_ = 0, before_ = 0;
+    glm::vec2 texelFromSt_{0.0f};  ///< factor and offset
 };
 
 }  // namespace penumbra

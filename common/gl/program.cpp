@@ -36,6 +36,18 @@ struct Program::State {
     ProgramUniforms uniforms{vertexFile + " + " + fragmentFile};
     std::vector<fs::path> files{};
     std::vector<fs::file_time_type> times{};  // of `files`, when they were read
+    std::vector<std::string> fixed{};
+    std::map<std::string, std::string> constants{};  // of `fixed`, as compiled
+
+    /// Has one of the fixed uniforms another value than it was compiled with? Then it is taken over.
+    bool takeConstants() {
+        std::map<std::string, std::string> now;
+        for (const std::string& name : fixed) {
+            const std::string value = uniforms.literal(name);
+            if (!value.empty()) now[name] = value;
+        }
+        return std::exchange(constants, now) != now;
+    }
 
     /// A new program to which the uniforms are attached. When it throws, the uniforms stay with the old one,
     /// and what was opened is watched besides what was watched before.
@@ -43,11 +55,13 @@ struct Program::State {
         std::vector<fs::path> opened;
         try {
             const Api api = currentApi();
-            const ShaderSource vertex = loadShaderSource(vertexFile, defines, api, opened);
-            const ShaderSource fragment = loadShaderSource(fragmentFile, defines, api, opened);
+            const ShaderSource vertex = loadShaderSource(vertexFile, defines, api, opened, constants);
+            const ShaderSource fragment = loadShaderSource(fragmentFile, defines, api, opened, constants);
             const GLuint program = linkProgram(vertex, fragment, vertexFile + " + " + fragmentFile);
             auto declared = declaredUniforms(vertex.text);
             declared.merge(declaredUniforms(fragment.text));
+            declared.insert(vertex.constants.begin(), vertex.constants.end());
+            declared.insert(fragment.constants.begin(), fragment.constants.end());
             uniforms.attach(program, declared);
             watch(std::move(opened));
             return program;
@@ -125,7 +139,12 @@ void Program::setTexture(const std::string& sampler, GLenum target, GLuint textu
     state_->uniforms.setTexture(sampler, target, texture, samplerObject);
 }
 
+void Program::fix(std::vector<std::string> names) {
+    state_->fixed = std::move(names);
+}
+
 void Program::prepareToDraw() {
+    if (state_->takeConstants()) deleteProgram(std::exchange(id_, state_->build()));
     state_->uniforms.requireComplete();
     use();
     state_->uniforms.bindTextures();

@@ -45,6 +45,11 @@ class Program {
     /// how it is read, in place of the texture's own parameters; 0: by those.
     void setTexture(const std::string& sampler, GLenum target, GLuint texture, GLuint samplerObject = 0);
 
+    /// Makes constants of these uniforms (numbers, truth values, vec2s, each declared on a line of its own)
+    /// once they are set, and compiles again whenever the value of one changes: for what seldom does. A CPU
+    /// rasteriser looks a uniform up for each pixel: 0.08 ms for each number in 512 x 512 of them.
+    void fix(std::vector<std::string> names);
+
     /// Call before drawing: binds the program and its textures; throws Error naming every active uniform
     /// never set.
     void prepareToDraw();

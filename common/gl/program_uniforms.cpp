@@ -155,6 +155,20 @@ void ProgramUniforms::requireComplete() {
     complete_ = true;
 }
 
+std::string ProgramUniforms::literal(const std::string& name) const {
+    const auto value = values_.find(name);
+    if (value == values_.end()) return {};
+    if (const int* number = std::get_if<int>(&value->second)) return fmt::format("{}", *number);
+    if (const bool* truth = std::get_if<bool>(&value->second)) return *truth ? "true" : "false";
+    // Nine digits tell any two floats apart.
+    if (const auto* pair = std::get_if<glm::vec2>(&value->second))
+        return fmt::format("vec2({:.9g}, {:.9g})", pair->x, pair->y);
+    if (const float* number = std::get_if<float>(&value->second))
+        return fmt::format("float({:.9g})", *number);
+    throw Error(
+        fmt::format("uniform {} of {} is no number, truth value or vec2: it cannot be fixed", name, names_));
+}
+
 void ProgramUniforms::bindTextures() const {
     for (const auto& [name, binding] : bindings_) {
         glActiveTexture(GLenum(GL_TEXTURE0 + binding.unit));

@@ -27,6 +27,8 @@ class ProgramUniforms {
     /// Throws Error naming every active uniform that was never set.
     void requireComplete();
     void bindTextures() const;
+    /// The value of a number, truth value or vec2 in GLSL; empty if it was never set.
+    std::string literal(const std::string& name) const;
 
  private:
     struct Uniform {

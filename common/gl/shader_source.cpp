@@ -38,8 +38,9 @@ std::string displayName(const std::string& file) {
 
 class Expander {
  public:
-    Expander(ShaderSource& source, std::vector<std::filesystem::path>& opened)
-        : source_(source), opened_(opened) {}
+    Expander(ShaderSource& source, std::vector<std::filesystem::path>& opened,
+             const std::map<std::string, std::string>& constants)
+        : source_(source), opened_(opened), constants_(constants) {}
 
     void expand(const std::string& file, const std::string& includer) {
         checkCycle(file);
@@ -83,7 +84,7 @@ class Expander {
             if (!line.empty() && line.back() == '\r') line.pop_back();
             std::smatch match;
             if (!std::regex_match(line, match, include)) {
-                source_.text += line + "\n";
+                source_.text += withConstants(line) + "\n";
                 continue;
             }
             expand(match[1], fmt::format("{}:{}", displayName(file), lineNumber));
@@ -91,8 +92,19 @@ class Expander {
         }
     }
 
+    std::string withConstants(const std::string& line) {
+        static const std::regex uniform(R"re(^uniform (\w+) (\w+);.*$)re");
+        std::smatch match;
+        if (constants_.empty() || !std::regex_match(line, match, uniform)) return line;
+        const auto constant = constants_.find(match[2]);
+        if (constant == constants_.end()) return line;
+        source_.constants.merge(declaredUniforms(line));
+        return fmt::format("const {} {} = {};", match[1].str(), match[2].str(), constant->second);
+    }
+
     ShaderSource& source_;
     std::vector<std::filesystem::path>& opened_;
+    const std::map<std::string, std::string>& constants_;
     std::vector<std::string> stack_;
     std::vector<std::string> done_;
 };
@@ -160,11 +172,12 @@ std::filesystem::path shaderRoot() {
 }
 
 ShaderSource loadShaderSource(const std::string& file, const std::vector<std::string>& defines, Api api,
-                              std::vector<std::filesystem::path>& opened) {
+                              std::vector<std::filesystem::path>& opened,
+                              const std::map<std::string, std::string>& constants) {
     ShaderSource source;
     source.text = api == Api::es ? esHeader : "#version 330 core\n";
     for (const std::string& define : defines) source.text += "#define " + define + "\n";
-    Expander(source, opened).expand(file, "");
+    Expander(source, opened, constants).expand(file, "");
     return source;
 }
 

@@ -19,13 +19,17 @@ std::filesystem::path shaderRoot();
 struct ShaderSource {
     std::string text;                ///< version line, precision, defines, files with #include resolved
     std::vector<std::string> files;  ///< the name of source-string number i, as #line counts them
+    std::map<std::string, GLenum> constants;  ///< uniforms that became constants, and their types
 };
 
 /// Reads `file` and what it includes (each file once). Every path opened is appended to `opened`, also when
 /// this throws, so that hot reload can watch the file that is wrong. Throws Error: missing file (and who
 /// includes it), include cycle.
+/// `constants`: uniforms that become constants, and their values in GLSL; those that are declared on a line
+/// of their own.
 ShaderSource loadShaderSource(const std::string& file, const std::vector<std::string>& defines, Api api,
-                              std::vector<std::filesystem::path>& opened);
+                              std::vector<std::filesystem::path>& opened,
+                              const std::map<std::string, std::string>& constants = {});
 
 /// The driver's log with source-string numbers replaced by names: "0:12(5): error: x" becomes
 /// "shaders/a.frag:12: error: x". Understands the notations of Mesa and Apple ("0:12"), AMD and ANGLE

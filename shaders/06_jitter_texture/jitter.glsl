@@ -118,7 +118,7 @@ float litOfEight(Taps taps, int chunk) {
 }
 #else
 float litOfTwo(Taps taps, uint word) {
-    vec4 p = vec4(ivec4(word << 24, word << 16, word << 8, word) >> 24) / 127.0;
+    vec4 p = vec4(ivec4(word << 24, word << 16, word << 8, word) >> 24) * (1.0 / 127.0);
     return litTap(taps, p.xy) + litTap(taps, p.zw);
 }
 // One look-up, eight tests.

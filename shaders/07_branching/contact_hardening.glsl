@@ -1,5 +1,6 @@
 // Percentage-closer soft shadows (Fernando 2005, SIGGRAPH sketches): shadows harden towards contacts, because the kernel is as
 // wide as the light looks from the receiver past its blockers. The blockers are taken for one plane parallel to the light.
+#include "07_branching/blocks.glsl"
 #include "07_branching/classify.glsl"
 
 uniform float uLightRadius;  // metres, of the disk of the light's area
@@ -23,14 +24,12 @@ vec2 kernelOf(float receiver, float blocker) {
 // [end:kernel-of-blocker]
 
 // [begin:blocker-bound]
-// No blocker is nearer to the light than this: from the minima, which are there already. So none needs to be searched for
+// No blocker is nearer to the light than this: from the minimum, which is there already. So none needs to be searched for
 // beyond the kernel of such a blocker.
 float nearestBlocker(vec2 st) {
-    vec4 nearest = nearestAround(st);
+    Window window = windowAround(st);
     float around = (uReach + float(block)) / float(textureSize(uShadowMap, 0).x);
-    float z = max(nearest.x + dot(uSlope0, st) - around * (abs(uSlope0.x) + abs(uSlope0.y)),
-                  max(nearest.y + dot(uSlope1, st) - around * (abs(uSlope1.x) + abs(uSlope1.y)),
-                      nearest.z + dot(uSlope2, st) - around * (abs(uSlope2.x) + abs(uSlope2.y))));
+    float z = window.above + dot(window.plane, st) - around * (abs(window.plane.x) + abs(window.plane.y));
     return metres(clamp(uFarther * z, 0.0, 1.0));
 }
 // [end:blocker-bound]

@@ -2,6 +2,7 @@
 #include "07_branching/classify.glsl"
 
 uniform int uRound;
+uniform vec2 uSlope0, uSlope1;  // two of the planes
 layout(location = 0) out vec4 outResult;
 
 uint hash(uint h) {

@@ -147,13 +147,13 @@ TEST(Chapter07, ABrokenShaderIsCaught) {
         return true;
     };
     const Mutation mutations[] = {
-        {"one block short", dilate, "i < uCount", "i < uCount - 1"},
-        {"one texel short", classify, "- uReach);", "- uReach + 1.0);"},
+        {"one block short", dilate, "i < COUNT", "i < COUNT - 1"},
+        {"one texel beside", classify, "windowAround(taps.st)", "windowAround(taps.st + 1.0 / 1024.0)"},
         {"back faces only", branching, "onMap && facing", "onMap && !facing"},
         {"farthest taken for nearest", blocks, "smallest(-columns.farthest)", "-smallest(columns.farthest)"},
         {"no allowance for the slope", classify, "z - length(taps.radius * slope) - rounding",
          "z + length(slope)"},
-        {"tighter than the disk", classify, "z + excess <=", "z - 4.0 * excess <="},
+        {"tighter than the disk", classify, "z + excess +", "z - 4.0 * excess +"},
         {"out of reach too early", branching, "any(greaterThan(st, uCasters.zw))",
          "any(greaterThan(st, uCasters.zw - 0.1))"},
     };

@@ -168,6 +168,45 @@ TEST_P(ProgramTest, EveryTypeOfUniformArrives) {
     EXPECT_EQ(draw(program), glm::vec4(3.5f, 7.0f, 24.0f, 32.0f));
 }
 
+TEST_P(ProgramTest, AFixedUniformIsAConstantAndFollowsItsValue) {
+    shaders_.write("u.frag",
+                   "uniform float uFloat;\nout vec4 color;\nvoid main() { color = vec4(uFloat); }\n");
+    Program program("full.vert", "u.frag");
+    program.fix({"uFloat"});
+    EXPECT_CONTAINS(errorOf([&] { program.prepareToDraw(); }), "never set: uFloat");
+    for (const float value : {0.1f, 3.0f, -1e-30f, 16777217.0f}) {
+        program.set("uFloat", value);
+        EXPECT_EQ(draw(program).x, value);
+        EXPECT_EQ(glGetUniformLocation(program.id(), "uFloat"), -1);
+    }
+    EXPECT_EQ(program.reload(), "");
+    EXPECT_EQ(draw(program).x, 16777217.0f);
+    program.fix({});
+    EXPECT_EQ(draw(program).x, 16777217.0f);
+    EXPECT_NE(glGetUniformLocation(program.id(), "uFloat"), -1);
+}
+
+TEST_P(ProgramTest, FixedUniformsOfEveryTypeAndOfIncludes) {
+    shaders_.write("common/f.glsl", "uniform bool uBool;  // of an include\nuniform vec2 uVec2;\n");
+    shaders_.write("f.frag",
+                   "#include \"common/f.glsl\"\nuniform int uInt;\nuniform vec3 uVec3;\nout vec4 color;\n"
+                   "void main() { color = vec4(uBool ? float(uInt) : -1.0, uVec2, uVec3.x); }\n");
+    Program program("full.vert", "f.frag");
+    program.set("uBool", true);
+    program.set("uInt", 7);
+    program.set("uVec2", glm::vec2(0.3f, 2.0f));
+    program.set("uVec3", glm::vec3(5.0f));
+    program.fix({"uBool", "uInt", "uVec2"});
+    EXPECT_EQ(draw(program), glm::vec4(7.0f, 0.3f, 2.0f, 5.0f));
+    for (const char* name : {"uBool", "uInt", "uVec2"})
+        EXPECT_EQ(glGetUniformLocation(program.id(), name), -1) << name;
+    program.set("uBool", false);
+    EXPECT_EQ(draw(program).x, -1.0f);
+    EXPECT_CONTAINS(errorOf([&] { program.set("uInt", 1.0f); }), "is a int, but is set with a float");
+    program.fix({"uVec3"});
+    EXPECT_CONTAINS(errorOf([&] { program.prepareToDraw(); }), "cannot be fixed");
+}
+
 TEST_P(ProgramTest, ArraysArriveFromTheirFirstElement) {
     shaders_.write("u.frag",
                    "uniform vec4 uPoints[3];\nout vec4 color;\n"
