@@ -2,6 +2,7 @@
 
 #include "chapters/02_shadow_test/shadow_test.h"
 #include "chapters/03_polygon_offset/depth_bias.h"
+#include "chapters/08_accumulation/slow_frame.h"
 #include "chapters/08_accumulation/stored_shadow.h"
 #include "common/app/pass_timer.h"
 #include "common/scene/gpu_light.h"
@@ -37,6 +38,7 @@ const TexelTarget& MapPass::run(const Frame& frame, const ShadowOptions& options
     const PassScope scope(frame.passTimer, "shadow maps");
     const GLenum format = sumFormat(frame.context->capabilities(), "32f");
     if (!sums_ || sums_->size() != frame.size) sums_.emplace(frame.size, format, true);
+    const ProgressCallback slowProgress = slowFrameProgress(frame);
     // [begin:shadow-maps]
     // The camera's depths first, so that only what it sees is added to.
     sums_->clear(glm::vec4(0.0f));
@@ -48,7 +50,7 @@ const TexelTarget& MapPass::run(const Frame& frame, const ShadowOptions& options
     glClearBufferfv(GL_COLOR, 0, none);
     for (std::size_t i = 0; i < points.size(); ++i) {
         add(frame, options, pointOf(light, points[i]), drawSeen);
-        if (frame.progress) frame.progress(double(i + 1) / double(points.size()));
+        slowProgress(double(i + 1) / double(points.size()));
     }
     // [end:shadow-maps]
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);

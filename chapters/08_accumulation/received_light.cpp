@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "chapters/08_accumulation/slow_frame.h"
 #include "chapters/08_accumulation/texture_room.h"
 #include "common/app/pass_timer.h"
 
@@ -58,14 +59,14 @@ void ReceivedLight::update(const Frame& frame, const AccumulationOptions& option
         lights.push_back({shadows, whole, options.lit(frame.scene, index)});
         if (visibility) break;  // of the first light
     }
+    const ProgressCallback slowProgress = slowFrameProgress(frame);
     for (std::size_t i = 0; i < receivers_.size(); ++i) {
         bool arrives = false;
         for (std::size_t k = 0; k < lights.size(); ++k) {
             const LitLight& light = lights[k];
             const auto progress = [&](double fraction) {
-                if (frame.progress)
-                    frame.progress((double(i * lights.size() + k) + fraction) /
-                                   double(receivers_.size() * lights.size()));
+                slowProgress((double(i * lights.size() + k) + fraction) /
+                             double(receivers_.size() * lights.size()));
             };
             light.shadows[i].update({frame, options, receivers_[i], light.whole, light.lit, progress},
                                     passes_);

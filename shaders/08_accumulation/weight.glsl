@@ -10,10 +10,10 @@ vec2 pointOfTexel(vec2 fragCoord) {
 }
 
 // [begin:weight]
-// Of one light point at four texels (x, y) of a row: cos(theta_x) cos(theta_l) / r^2 times the area that the point stands for. On a plane
-// cos(theta_x) is the light point's height over r; cos(theta_l) is the texel's height under the light's plane over r, the same
-// for all points, and left to whoever needs more than ratios. lightPoint: foot of the perpendicular (x, y), height squared, area
-// times height.
+// Of one light point at four texels (x, y) of a row: cos(theta_x) cos(theta_l) / r^2 times the area that the point stands for.
+// On a plane cos(theta_x) is the light point's height over r; cos(theta_l) is the texel's height under the light's plane over r,
+// the same for all points, and left to whoever needs more than ratios. lightPoint: foot of the perpendicular (x, y), height
+// squared, area times height.
 vec4 weight(vec4 lightPoint, vec4 x, float y) {
 #ifdef EQUAL_WEIGHTS
     return vec4(lightPoint.w > 0.0 ? 1.0 : 0.0);
