@@ -37,7 +37,7 @@ void AccumulationOptions::declare(Parameters& parameters) {
     parameters.add("samples", samples, 1, 4096, "",
                    "points of an area light; 4: hard edges side by side, 1024: smooth");
     parameters.add("pattern", pattern, patternNames,
-                   "how the points are spread; fibonacci: least error; regular: the paper's grid, bands");
+                   "how the points are spread; regular: the paper's grid, with bands along its rows");
     parameters.add(
         "method", method, {"accumulate", "mask", "exact", "shadow-maps"},
         "accumulate: the paper's; mask: 32 points a draw call; exact: cone subtraction, no points");

@@ -14,7 +14,7 @@ namespace penumbra {
 struct AccumulationOptions {
     int samples = 64, othersSamples = 16, texelBudget = 1024;
     float texelsPerMetre = 200.0f, minimumArea = 0.05f, intensity = 1.0f;
-    std::string method = "mask", pattern = "fibonacci", target = "32f", weights = "ratio", lightPart = "all",
+    std::string method = "mask", pattern = "owen-sobol", target = "32f", weights = "ratio", lightPart = "all",
                 tint = "white", others = "shadow-maps", masks = "logic-op";
 
     ShadowOptions maps;  ///< of --method shadow-maps and --others; its light is --light, -1: all
