@@ -131,7 +131,7 @@ double limitOfEdge(double angle, double radius) {
     return 2.0 * (c / 4.0 + s * s / (12.0 * c)) / (3.141592653589793 * radius) + 0.0022;
 }
 
-TEST(Chapter05, EdgesAreTheDisksUpToTheTexels) {
+TEST(Chapter05Slow, EdgesAreTheDisksUpToTheTexels) {
     for (const double radius : {2.0, 4.0, 7.0}) {
         for (int k = 0; k < 8; ++k) {
             const double angle = 3.141592653589793 * k / 8.0;

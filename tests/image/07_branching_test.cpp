@@ -70,10 +70,10 @@ TEST_P(SameAsChapter06, BitForBit) {
         EXPECT_EQ(difference(scene, settings, {{"classify", "none"}}).pixels, 0) << name << "none";
     }
 }
-INSTANTIATE_TEST_SUITE_P(Chapter07, SameAsChapter06,
-                         testing::Values("heckbert_herf", "contact", "courtyard", "fence", "spheres",
-                                         thirdPartyModel),
+INSTANTIATE_TEST_SUITE_P(Chapter07, SameAsChapter06, testing::Values("heckbert_herf", "contact", "fence"),
                          sceneTestName);
+INSTANTIATE_TEST_SUITE_P(Chapter07Slow, SameAsChapter06,
+                         testing::Values("courtyard", "spheres", thirdPartyModel), sceneTestName);
 
 TEST(Chapter07, TheLecturesProbeMissesWires) {
     const Difference probe = difference(testScene("fence"), {}, {{"classify", "probe"}});

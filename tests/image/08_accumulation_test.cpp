@@ -193,7 +193,7 @@ FloatImage drawn(ChapterHarness& harness, const std::string& view) {
 
 // With equal weights visibility is the count of points that are seen, over all. With their own, both add the
 // same floats, in another order: 100 additions of at most 2^-24 each.
-TEST(Chapter08Ways, MaskAndAccumulateAreTheSameLight) {
+TEST(Chapter08Slow, MaskAndAccumulateAreTheSameLight) {
     for (const Case& c : cases) {
         ChapterHarness mask = harnessOf(c, {}), stencil = harnessOf(c, {{"masks", "stencil"}}),
                        accumulate = harnessOf(c, {{"method", "accumulate"}});
@@ -210,7 +210,7 @@ TEST(Chapter08Ways, MaskAndAccumulateAreTheSameLight) {
     }
 }
 
-TEST(Chapter08Ways, SkippingChangesNoBit) {
+TEST(Chapter08Slow, SkippingChangesNoBit) {
     for (const Case& c : cases)
         for (const char* method : {"mask", "accumulate", "exact"}) {
             if (std::string(method) == "exact" && c.scene != "heckbert_herf") continue;

@@ -81,7 +81,7 @@ TEST(MinMaxMap, MissesNoneOfAMillionReceivers) {
     EXPECT_GT(counts.dark, 100000);
 }
 
-TEST(MinMaxMap, WhateverTheFormatTheRadiusAndTheLookUp) {
+TEST(MinMaxMapSlow, WhateverTheFormatTheRadiusAndTheLookUp) {
     for (const DepthFormat format :
          {DepthFormat::fixed16, DepthFormat::float32, DepthFormat::float32Reversed})
         for (const float radius : {0.0f, 3.0f, 31.5f}) {
