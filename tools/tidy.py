@@ -5,6 +5,7 @@ import re
 import subprocess
 from functools import lru_cache
 
+PRECOMPILED = re.compile(r" -Winvalid-pch| -fpch-preprocess| -include \S*cmake_pch\.hxx")  # GCC's, which clang cannot read
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 
@@ -13,7 +14,8 @@ class Linter:
         self.root, self.built = root, built
         self.passed = built.parent / "tidy"
         self.passed.mkdir(parents=True, exist_ok=True)
-        commands = json.loads((built / "compile_commands.json").read_text())
+        commands = json.loads(PRECOMPILED.sub("", (built / "compile_commands.json").read_text()))
+        (self.passed / "compile_commands.json").write_text(json.dumps(commands))
         self.commands = {entry["file"]: entry["command"] for entry in commands}
         version = subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True, check=True).stdout
         self.rules = version + (root / ".clang-tidy").read_text()
@@ -26,7 +28,7 @@ class Linter:
         stamp = self.passed / self.digest(path)
         if stamp.exists():
             return ""
-        ran = subprocess.run(["clang-tidy", "--quiet", "-p", self.built, path], cwd=self.root, capture_output=True,
+        ran = subprocess.run(["clang-tidy", "--quiet", "-p", self.passed, path], cwd=self.root, capture_output=True,
                              text=True)
         if ran.returncode == 0 and not ran.stdout.strip():
             stamp.touch()

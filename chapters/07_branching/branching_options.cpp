@@ -28,12 +28,12 @@ void BranchingOptions::load(const Scene& scene) {
 
 std::vector<std::string> BranchingOptions::defines(int view) const {
     std::vector<std::string> defines = jitter.defines(view);
-    if (hardening()) defines.push_back("CONTACT_HARDENING");
+    if (hardening()) defines.emplace_back("CONTACT_HARDENING");
     if (hardening() && classify != "min-max")
         throw UsageError("--penumbra contact-hardening: searches by the minima; leave --classify at min-max");
-    defines.push_back(classify == "min-max" ? "CLASSIFY_MIN_MAX"
-                      : classify == "probe" ? "CLASSIFY_PROBE"
-                                            : "CLASSIFY_NONE");
+    defines.emplace_back(classify == "min-max" ? "CLASSIFY_MIN_MAX"
+                         : classify == "probe" ? "CLASSIFY_PROBE"
+                                               : "CLASSIFY_NONE");
     // The bound of the loop is a constant then, and the compiler writes the tests out one after the other.
     if (branch == "if") defines.push_back(fmt::format("BRANCH_IF {}", jitter.samples / 8));
     return defines;

@@ -18,7 +18,7 @@ void addFittedCamera(Scene& scene) {
     camera.near = distance - radius;
     camera.far = distance + radius;
     scene.cameras.push_back(camera);
-    scene.notes.push_back("no camera: a view of everything was added");
+    scene.notes.emplace_back("no camera: a view of everything was added");
 }
 
 void addSun(Scene& scene) {
@@ -29,7 +29,7 @@ void addSun(Scene& scene) {
     sun.direction = glm::normalize(glm::dvec3(0.5, -1.0, -0.35));
     sun.emission = glm::dvec3(3.14159265358979323846);
     scene.lights.push_back(sun);
-    scene.notes.push_back("no light: a sun was added");
+    scene.notes.emplace_back("no light: a sun was added");
 }
 
 }  // namespace penumbra
