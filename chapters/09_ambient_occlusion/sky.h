@@ -21,7 +21,7 @@ class Sky {
     /// somewhere.
     static Sky linear(const glm::dvec3& mean, const glm::dmat3& gradient);
     /// A latitude-longitude picture, linear values, 3 channels, top row = up, bilinear with wrap-around in
-    /// longitude; column u = 0.5 looks along -z and u grows towards +x. Throws WorkError if it is empty or
+    /// longitude; column u = 0.5 looks along -z and u grows towards +x. Throws Error if it is empty or
     /// holds NaN or negative values.
     static Sky latLong(FloatImage picture);
     /// By name ("uniform", "overcast", "gradient": white above, grey at the horizon, brown below) or a
