@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "common/truth/ray_tracer.h"
 
@@ -38,11 +40,28 @@ struct AmbientRays {
     int count = 64;
     Weighting weighting = Weighting::cosine;
     AmbientReach reach;
+    /// The caller knows that no surface within reach rises above the plane of the triangle, on the side
+    /// looked from (OpenPlanes): no ray is traced, and the answer is the same to the bit.
+    bool nothingAbove = false;
 };
 
-/// Estimate at a surface point with `rays.count` Owen-scrambled Sobol directions about `normal` (unit, on the
-/// side looked from), scrambled by `seed`. Directions below the geometric surface are blocked by it. Counts
-/// rays in `traced`.
+/// One direction of an estimate. All of them count the same: each mean below is a plain one.
+struct AmbientDirection {
+    glm::dvec3 direction{0.0};
+    double open = 0.0;  ///< V of AmbientValue: 0 blocked, 1 open, between only with a smooth falloff
+};
+
+/// `rays.count` Owen-scrambled Sobol directions about `normal` (unit, on the side looked from), scrambled by
+/// `seed`, and how open each is. Directions below the surface itself, by from.geometricNormal (on that side
+/// too, as faceTheEye leaves it), are blocked and cost nothing. Adds the rays that were traced to `traced`.
+std::vector<AmbientDirection> castAmbientRays(const RayTracer& tracer, const Hit& from,
+                                              const glm::dvec3& normal, const AmbientRays& rays,
+                                              std::uint32_t seed, std::int64_t& traced);
+
+/// Means of the openness, and of the openness times the direction.
+AmbientValue averageOf(std::span<const AmbientDirection> directions);
+
+/// Both at once.
 AmbientValue estimateAmbient(const RayTracer& tracer, const Hit& from, const glm::dvec3& normal,
                              const AmbientRays& rays, std::uint32_t seed, std::int64_t& traced);
 

@@ -1,0 +1,123 @@
+#include "chapters/09_ambient_occlusion/sky.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+
+#include "common/error.h"
+#include "common/image/image_file.h"
+#include "common/text/spelling.h"
+
+namespace penumbra {
+
+struct Sky::Model {
+    std::function<glm::dvec3(const glm::dvec3& direction)> radiance;
+};
+
+namespace {
+
+/// Bilinear between texel centres; round the world in x, up to the poles in y.
+glm::dvec3 lookUp(const FloatImage& picture, const glm::dvec2& uv) {
+    const double x = uv.x * picture.width - 0.5;
+    const double y = std::clamp(uv.y * picture.height - 0.5, 0.0, double(picture.height - 1));
+    const int x0 = int(std::floor(x)), y0 = std::min(int(y), picture.height - 1);
+    const auto texel = [&](int i, int j) {
+        i = (i % picture.width + picture.width) % picture.width;
+        j = std::min(j, picture.height - 1);
+        return glm::dvec3(picture.at(i, j, 0), picture.at(i, j, 1), picture.at(i, j, 2));
+    };
+    const double s = x - x0, t = y - y0;
+    return glm::mix(glm::mix(texel(x0, y0), texel(x0 + 1, y0), s),
+                    glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), s), t);
+}
+
+/// White above, grey at the horizon, brown below: a bright day over dry ground.
+glm::dvec3 gradientSky(const glm::dvec3& direction) {
+    const glm::dvec3 above(1.0), horizon(0.5), below(0.25, 0.19, 0.13);
+    return glm::mix(horizon, direction.y > 0.0 ? above : below, std::abs(direction.y));
+}
+
+/// Grey pictures get three channels, and alpha is dropped.
+FloatImage inColour(const FloatImage& picture) {
+    FloatImage colour(picture.width, picture.height, 3);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            for (int c = 0; c < 3; ++c) colour.at(x, y, c) = picture.at(x, y, picture.channels < 3 ? 0 : c);
+    return colour;
+}
+
+}  // namespace
+
+Sky Sky::uniform(const glm::dvec3& radiance) {
+    Sky sky;
+    sky.model_ = std::make_shared<Model>(Model{[radiance](const glm::dvec3&) { return radiance; }});
+    return sky;
+}
+
+// [begin:overcast]
+Sky Sky::overcast(const glm::dvec3& zenith) {
+    const auto radiance = [zenith](const glm::dvec3& direction) {
+        const double sine = direction.y;  // of the elevation
+        return sine > 0.0 ? zenith * ((1.0 + 2.0 * sine) / 3.0) : glm::dvec3(0.0);
+    };
+    // [end:overcast]
+    Sky sky;
+    sky.model_ = std::make_shared<Model>(Model{radiance});
+    return sky;
+}
+
+Sky Sky::linear(const glm::dvec3& mean, const glm::dmat3& gradient) {
+    Sky sky;
+    sky.model_ = std::make_shared<Model>(
+        Model{[mean, gradient](const glm::dvec3& direction) { return mean + gradient * direction; }});
+    return sky;
+}
+
+Sky Sky::latLong(FloatImage picture) {
+    if (picture.width < 1 || picture.height < 1 || picture.channels != 3)
+        throw Error("a sky needs a picture of 3 channels with at least one texel");
+    for (const float value : picture.values)
+        if (!(value >= 0.0f && std::isfinite(value)))
+            throw Error("a sky cannot have radiance that is negative or no number; repair the picture");
+    const auto radiance = [picture = std::move(picture)](const glm::dvec3& direction) {
+        const double u = 0.5 + std::atan2(direction.x, -direction.z) / (2.0 * std::numbers::pi);
+        const double v = std::acos(std::clamp(direction.y, -1.0, 1.0)) / std::numbers::pi;
+        return lookUp(picture, {u, v});
+    };
+    Sky sky;
+    sky.model_ = std::make_shared<Model>(Model{radiance});
+    return sky;
+}
+
+Sky Sky::named(const std::string& nameOrFile) {
+    if (nameOrFile == "uniform") return uniform(glm::dvec3(1.0));
+    if (nameOrFile == "overcast") return overcast(glm::dvec3(1.0));
+    if (nameOrFile == "gradient") {
+        Sky sky;
+        sky.model_ = std::make_shared<Model>(Model{gradientSky});
+        return sky;
+    }
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(nameOrFile, ignored)) {
+        const std::vector<std::string> names{"uniform", "overcast", "gradient"};
+        throw UsageError(fmt::format("--sky {}: neither one of {} nor a .hdr or .exr file{}", nameOrFile,
+                                     joinNames(names), didYouMean(nameOrFile, names)));
+    }
+    try {
+        return latLong(inColour(readImage(nameOrFile)));
+    } catch (const UsageError&) {
+        throw;
+    } catch (const Error& error) {
+        throw Error(fmt::format("--sky {}: {}", nameOrFile, error.what()));
+    }
+}
+
+glm::dvec3 Sky::radiance(const glm::dvec3& direction) const {
+    return model_->radiance(direction);
+}
+
+}  // namespace penumbra
