@@ -1,0 +1,64 @@
+#include "chapters/09_ambient_occlusion/open_planes.h"
+
+#include <cmath>
+
+#include "common/truth/surface_hit.h"
+
+namespace penumbra {
+
+namespace {
+
+/// Is `p` above the plane through `foot` with the unit normal `n`, by more than rounding? The bound counts 4
+/// roundings of the normal, 1 of the difference and 3 of the product, each 2^-53 of the magnitudes, twice.
+bool above(const glm::dvec3& p, const glm::dvec3& foot, const glm::dvec3& n) {
+    const double bound = 16.0 * 0x1p-53 * glm::dot(glm::abs(n), glm::abs(p) + glm::abs(foot));
+    return glm::dot(n, p - foot) > bound;
+}
+
+/// The corner of `box` that is farthest along `n`.
+glm::dvec3 highest(const Aabb& box, const glm::dvec3& n) {
+    return {n.x > 0.0 ? box.upper.x : box.lower.x, n.y > 0.0 ? box.upper.y : box.lower.y,
+            n.z > 0.0 ? box.upper.z : box.lower.z};
+}
+
+double squaredDistance(const Aabb& box, const glm::dvec3& p) {
+    const glm::dvec3 gap = p - glm::clamp(p, box.lower, box.upper);
+    return glm::dot(gap, gap);
+}
+
+}  // namespace
+
+OpenPlanes::OpenPlanes(const Scene& scene) : scene_(scene), known_(2 * scene.triangleCount()) {}
+
+// [begin:nothing-above]
+bool OpenPlanes::reachesAbove(const Cluster& cluster, const Hit& from) const {
+    const glm::dvec3 foot = cornersOf(scene_, from.triangle)[0];
+    if (!above(highest(cluster.bounds, from.geometricNormal), foot, from.geometricNormal)) return false;
+    // The box does, but does a triangle?
+    const std::size_t first = 3 * std::size_t(cluster.firstTriangle);
+    for (std::size_t i = first; i < first + 3 * std::size_t(cluster.triangleCount); ++i)
+        if (above(glm::dvec3(scene_.positions[scene_.indices[i]]), foot, from.geometricNormal)) return true;
+    return false;
+}
+// [end:nothing-above]
+
+bool OpenPlanes::nothingAboveTriangle(const Hit& from) const {
+    std::atomic<Known>& known = known_[2 * std::size_t(from.triangle) + (from.fromBehind ? 1 : 0)];
+    if (known.load(std::memory_order_relaxed) == Known::notYet) {
+        bool open = true;
+        for (const Cluster& cluster : scene_.clusters) open = open && !reachesAbove(cluster, from);
+        known.store(open ? Known::open : Known::notOpen, std::memory_order_relaxed);
+    }
+    return known.load(std::memory_order_relaxed) == Known::open;
+}
+
+bool OpenPlanes::nothingAbove(const Hit& from, double range) const {
+    if (nothingAboveTriangle(from)) return true;
+    if (!std::isfinite(range)) return false;
+    for (const Cluster& cluster : scene_.clusters)
+        if (squaredDistance(cluster.bounds, from.position) <= range * range && reachesAbove(cluster, from))
+            return false;
+    return true;
+}
+
+}  // namespace penumbra
