@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <numbers>
+#include <utility>
 
 #include "common/error.h"
 #include "common/image/image_file.h"
@@ -17,6 +17,12 @@ namespace penumbra {
 struct Sky::Model {
     std::function<glm::dvec3(const glm::dvec3& direction)> radiance;
 };
+
+Sky Sky::of(std::function<glm::dvec3(const glm::dvec3&)> radiance) {
+    Sky sky;
+    sky.model_ = std::make_shared<Model>(Model{std::move(radiance)});
+    return sky;
+}
 
 namespace {
 
@@ -53,9 +59,7 @@ FloatImage inColour(const FloatImage& picture) {
 }  // namespace
 
 Sky Sky::uniform(const glm::dvec3& radiance) {
-    Sky sky;
-    sky.model_ = std::make_shared<Model>(Model{[radiance](const glm::dvec3&) { return radiance; }});
-    return sky;
+    return of([radiance](const glm::dvec3&) { return radiance; });
 }
 
 // [begin:overcast]
@@ -65,16 +69,11 @@ Sky Sky::overcast(const glm::dvec3& zenith) {
         return sine > 0.0 ? zenith * ((1.0 + 2.0 * sine) / 3.0) : glm::dvec3(0.0);
     };
     // [end:overcast]
-    Sky sky;
-    sky.model_ = std::make_shared<Model>(Model{radiance});
-    return sky;
+    return of(radiance);
 }
 
 Sky Sky::linear(const glm::dvec3& mean, const glm::dmat3& gradient) {
-    Sky sky;
-    sky.model_ = std::make_shared<Model>(
-        Model{[mean, gradient](const glm::dvec3& direction) { return mean + gradient * direction; }});
-    return sky;
+    return of([mean, gradient](const glm::dvec3& direction) { return mean + gradient * direction; });
 }
 
 Sky Sky::latLong(FloatImage picture) {
@@ -88,19 +87,13 @@ Sky Sky::latLong(FloatImage picture) {
         const double v = std::acos(std::clamp(direction.y, -1.0, 1.0)) / std::numbers::pi;
         return lookUp(picture, {u, v});
     };
-    Sky sky;
-    sky.model_ = std::make_shared<Model>(Model{radiance});
-    return sky;
+    return of(radiance);
 }
 
 Sky Sky::named(const std::string& nameOrFile) {
     if (nameOrFile == "uniform") return uniform(glm::dvec3(1.0));
     if (nameOrFile == "overcast") return overcast(glm::dvec3(1.0));
-    if (nameOrFile == "gradient") {
-        Sky sky;
-        sky.model_ = std::make_shared<Model>(Model{gradientSky});
-        return sky;
-    }
+    if (nameOrFile == "gradient") return of(gradientSky);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(nameOrFile, ignored)) {
         const std::vector<std::string> names{"uniform", "overcast", "gradient"};
@@ -116,8 +109,33 @@ Sky Sky::named(const std::string& nameOrFile) {
     }
 }
 
+Sky Sky::times(double factor) const {
+    return of([model = model_, factor](const glm::dvec3& w) { return factor * model->radiance(w); });
+}
+
+Sky Sky::onlySide(const glm::dvec3& side) const {
+    return of([model = model_, side](const glm::dvec3& w) {
+        return glm::dot(side, w) >= 0.0 ? model->radiance(w) : glm::dvec3(0.0);
+    });
+}
+
 glm::dvec3 Sky::radiance(const glm::dvec3& direction) const {
     return model_->radiance(direction);
+}
+
+glm::dvec3 Sky::onOpenGround() const {
+    // Cells of equal weight: equal steps of the azimuth and of the squared sine of the zenith angle.
+    constexpr int around = 512, up = 128;
+    glm::dvec3 sum(0.0);
+    for (int j = 0; j < up; ++j) {
+        const double sine2 = (j + 0.5) / up;
+        for (int i = 0; i < around; ++i) {
+            const double angle = 2.0 * std::numbers::pi * (i + 0.5) / around;
+            sum += radiance({std::sqrt(sine2) * std::cos(angle), std::sqrt(1.0 - sine2),
+                             std::sqrt(sine2) * std::sin(angle)});
+        }
+    }
+    return sum / double(around * up);
 }
 
 }  // namespace penumbra

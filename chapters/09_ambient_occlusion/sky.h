@@ -1,6 +1,7 @@
 // Skies: radiance by direction.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -28,10 +29,19 @@ class Sky {
     /// .hdr/.exr file.
     static Sky named(const std::string& nameOrFile);
 
+    /// The same sky, so many times as bright.
+    Sky times(double factor) const;
+    /// Switched off but for the half around `side`: directions w with side.w >= 0.
+    Sky onlySide(const glm::dvec3& side) const;
+
     glm::dvec3 radiance(const glm::dvec3& direction) const;
+    /// Mean radiance as a flat, open ground sees it, E / pi: 1/pi int L (up.w) dw over the upper hemisphere.
+    /// By a sum over 512 x 128 cells: 1e-4 for a smooth sky.
+    glm::dvec3 onOpenGround() const;
 
  private:
     struct Model;
+    static Sky of(std::function<glm::dvec3(const glm::dvec3& direction)> radiance);
     std::shared_ptr<const Model> model_;
 };
 

@@ -1,0 +1,58 @@
+// Solution 2: rays from what each pixel sees into its hemisphere.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chapters/08_accumulation/texel_target.h"
+#include "chapters/09_ambient_occlusion/ambient_options.h"
+#include "chapters/09_ambient_occlusion/open_planes.h"
+#include "common/app/chapter.h"
+
+namespace penumbra {
+
+class PixelRays {
+ public:
+    explicit PixelRays(const Scene& scene) : tracer_(scene), planes_(scene) {}
+
+    /// Traces, unless nothing has changed since the latest frame. Counts primary_rays, rays_traced,
+    /// rays_saved (towards what nothing can be in the way of) and pixels_receiving.
+    void update(const Frame& frame, const AmbientOptions& options);
+
+    /// One texel for each pixel. Bent vector and ambient visibility; radiance that arrives (E / pi), and how
+    /// much work it was: 0 none, 1 rays that agreed, 2 rays that did not.
+    GLuint values() const { return values_->id(); }
+    GLuint light() const { return light_->id(); }
+
+    /// What each pixel sees, top row first, and its ambient visibility: of the latest update.
+    const std::vector<Hit>& hits() const { return hits_; }
+    float visibility(std::size_t pixel) const;
+
+ private:
+    struct Counts {
+        std::int64_t traced = 0, saved = 0, receiving = 0;
+    };
+
+    void findHits(const Frame& frame);
+    void traceRow(const Frame& frame, const AmbientOptions& options, const SkyLight& light, int y,
+                  Counts& counts);
+    void upload(const glm::ivec2& size);
+    /// Of pixel (x, y), y down, in the arrays below, whose rows run up as textures do.
+    std::size_t texel(int x, int y) const { return std::size_t(size_.y - 1 - y) * size_.x + x; }
+
+    RayTracer tracer_;
+    OpenPlanes planes_;
+    glm::ivec2 size_{0};
+    std::optional<Camera> camera_;  ///< of the hits
+    std::string key_;
+    std::vector<Hit> hits_;
+    std::vector<float> valueTexels_, lightTexels_;  ///< RGBA
+    Counts counts_;
+    std::optional<TexelTexture> values_, light_;
+};
+
+/// Radiance (E / pi) that the sun sends to `hit` with the normal `normal`; 0 if something is in the way.
+glm::dvec3 sunlight(const RayTracer& tracer, const Light& sun, const Hit& hit, const glm::dvec3& normal);
+
+}  // namespace penumbra
