@@ -7,21 +7,30 @@ namespace penumbra {
 
 using std::numbers::pi;
 
+namespace {
+
 // [begin:harmonics]
-std::array<double, 9> sphericalHarmonics(const glm::dvec3& d) {
+/// What makes the nine polynomials orthonormal.
+const std::array<double, 9>& harmonicFactors() {
     static const double c0 = std::sqrt(1.0 / (4.0 * pi)), c1 = std::sqrt(3.0 / (4.0 * pi));
     static const double c2 = std::sqrt(15.0 / (4.0 * pi)), c20 = std::sqrt(5.0 / (16.0 * pi));
-    return {c0,
-            c1 * d.y,
-            c1 * d.z,
-            c1 * d.x,
-            c2 * d.x * d.y,
-            c2 * d.y * d.z,
-            c20 * (3.0 * d.z * d.z - 1.0),
-            c2 * d.x * d.z,
-            0.5 * c2 * (d.x * d.x - d.y * d.y)};
+    static const std::array<double, 9> factors{c0, c1, c1, c1, c2, c2, c20, c2, 0.5 * c2};
+    return factors;
+}
+
+std::array<double, 9> polynomials(const glm::dvec3& d) {
+    return {
+        1.0, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3.0 * d.z * d.z - 1.0, d.x * d.z, d.x * d.x - d.y * d.y};
 }
 // [end:harmonics]
+
+}  // namespace
+
+std::array<double, 9> sphericalHarmonics(const glm::dvec3& direction) {
+    std::array<double, 9> result = polynomials(direction);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] *= harmonicFactors()[i];
+    return result;
+}
 
 // [begin:project]
 ShIrradiance ShIrradiance::of(const SkySamples& sky) {
@@ -36,6 +45,12 @@ ShIrradiance ShIrradiance::of(const SkySamples& sky) {
     return result;
 }
 // [end:project]
+
+std::array<glm::dvec3, 9> ShIrradiance::polynomial() const {
+    std::array<glm::dvec3, 9> result = coefficients;
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] *= harmonicFactors()[i];
+    return result;
+}
 
 glm::dvec3 ShIrradiance::at(const glm::dvec3& n) const {
     const std::array<double, 9> y = sphericalHarmonics(n);

@@ -20,6 +20,8 @@ struct ShIrradiance {
     std::array<glm::dvec3, 9> coefficients{};
 
     static ShIrradiance of(const SkySamples& sky);
+    /// Factors of 1, y, z, x, xy, yz, 3zz - 1, xz and xx - yy: E(n) as a shader wants it.
+    std::array<glm::dvec3, 9> polynomial() const;
     /// Irradiance on an unoccluded plane with unit normal `n`; what falls below 0 (the polynomial can, behind
     /// a small lamp) is 0.
     glm::dvec3 at(const glm::dvec3& n) const;
