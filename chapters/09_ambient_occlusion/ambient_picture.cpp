@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "chapters/01_depth_from_light/shadow_options.h"
 
@@ -17,47 +15,10 @@ int viewNumber(const std::string& view) {
     return int(std::find(names.begin(), names.end(), view) - names.begin());
 }
 
-/// Texel centres of a latitude-longitude picture, row 0 up.
-std::vector<float> latLongTexels(const Sky& sky, const glm::ivec2& size) {
-    std::vector<float> texels;
-    for (int j = 0; j < size.y; ++j)
-        for (int i = 0; i < size.x; ++i) {
-            const double azimuth = 2.0 * std::numbers::pi * ((i + 0.5) / size.x - 0.5);
-            const double zenith = std::numbers::pi * (j + 0.5) / size.y;
-            const double sine = std::sin(zenith);
-            const glm::vec3 L(
-                sky.radiance({sine * std::sin(azimuth), std::cos(zenith), -sine * std::cos(azimuth)}));
-            texels.insert(texels.end(), {L.r, L.g, L.b, 1.0f});
-        }
-    return texels;
-}
-
 }  // namespace
 
-void AmbientPicture::drawSky(const Frame& frame, const AmbientOptions& options) {
-    glClearColor(0, 0, 0, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    if (frame.view != "color") return;
-    const glm::ivec2 size(512, 256);
-    const std::string key = options.lightKey();
-    if (!sky_ || key != skyKey_) {
-        sky_.emplace(size, GL_RGBA32F);
-        sky_->upload(latLongTexels(options.light(frame.scene).sky, size));
-        skyKey_ = key;
-    }
-    backdrop_.setTexture("uSky", GL_TEXTURE_2D, sky_->id());
-    backdrop_.set("uWorldFromClip",
-                  glm::mat4(glm::inverse(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y))));
-    backdrop_.set("uEye", glm::vec3(frame.camera.position));
-    backdrop_.set("uParallel", frame.camera.orthographic);
-    backdrop_.set("uForward", glm::vec3(frame.camera.forward));
-    backdrop_.prepareToDraw();
-    glDisable(GL_DEPTH_TEST);
-    triangle_.draw();
-}
-
 void AmbientPicture::begin(Program& program, const Frame& frame, const AmbientOptions& options) {
-    drawSky(frame, options);
+    backdrop_.draw(frame, options);
     glEnable(GL_DEPTH_TEST);
     program.set("uClipFromWorld",
                 glm::mat4(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y)));
@@ -94,7 +55,7 @@ void AmbientPicture::show(const Frame& frame, const std::vector<float>& picture)
 }
 
 std::vector<Program*> AmbientPicture::programs() {
-    return {&hemisphere_, &hemisphereUniform_, &pixels_, &stored_, &backdrop_, &shown_};
+    return {&hemisphere_, &hemisphereUniform_, &pixels_, &stored_, &backdrop_.program(), &shown_};
 }
 
 }  // namespace penumbra

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "chapters/08_accumulation/texel_target.h"
+#include "chapters/09_ambient_occlusion/backdrop.h"
 #include "chapters/09_ambient_occlusion/baked_ambient.h"
 #include "chapters/09_ambient_occlusion/pixel_rays.h"
 #include "common/gl/fullscreen.h"
@@ -23,18 +24,16 @@ class AmbientPicture {
 
  private:
     void begin(Program& program, const Frame& frame, const AmbientOptions& options);
-    void drawSky(const Frame& frame, const AmbientOptions& options);
 
     Program hemisphere_{"09_ambient_occlusion/ambient.vert", "09_ambient_occlusion/ambient.frag"};
     Program hemisphereUniform_{
         "09_ambient_occlusion/ambient.vert", "09_ambient_occlusion/ambient.frag", {"UNIFORM_WEIGHTING"}};
     Program pixels_{"09_ambient_occlusion/ambient.vert", "09_ambient_occlusion/ambient.frag", {"PIXELS"}};
     Program stored_{"09_ambient_occlusion/ambient.vert", "09_ambient_occlusion/ambient.frag", {"STORED"}};
-    Program backdrop_{"common/fullscreen.vert", "09_ambient_occlusion/backdrop.frag"};
     Program shown_{"common/fullscreen.vert", "09_ambient_occlusion/shown.frag"};
+    Backdrop backdrop_;
     FullscreenTriangle triangle_;
-    std::optional<TexelTexture> sky_, picture_;
-    std::string skyKey_;
+    std::optional<TexelTexture> picture_;
 };
 
 }  // namespace penumbra
