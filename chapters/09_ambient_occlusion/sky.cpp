@@ -41,10 +41,11 @@ glm::dvec3 lookUp(const FloatImage& picture, const glm::dvec2& uv) {
                     glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), s), t);
 }
 
-/// White above, grey at the horizon, brown below: a bright day over dry ground.
-glm::dvec3 gradientSky(const glm::dvec3& direction) {
-    const glm::dvec3 above(1.0), horizon(0.5), below(0.25, 0.19, 0.13);
-    return glm::mix(horizon, direction.y > 0.0 ? above : below, std::abs(direction.y));
+/// A bright day over dry ground: white above, brown below, and half of each at the horizon. Linear in the
+/// direction, so chapter 11 knows a look-up that is exact under it.
+Sky gradientSky() {
+    const glm::dvec3 above(1.0), below(0.25, 0.19, 0.13);
+    return Sky::linear(0.5 * (above + below), {glm::dvec3(0.0), 0.5 * (above - below), glm::dvec3(0.0)});
 }
 
 /// Grey pictures get three channels, and alpha is dropped.
@@ -93,7 +94,7 @@ Sky Sky::latLong(FloatImage picture) {
 Sky Sky::named(const std::string& nameOrFile) {
     if (nameOrFile == "uniform") return uniform(glm::dvec3(1.0));
     if (nameOrFile == "overcast") return overcast(glm::dvec3(1.0));
-    if (nameOrFile == "gradient") return of(gradientSky);
+    if (nameOrFile == "gradient") return gradientSky();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(nameOrFile, ignored)) {
         const std::vector<std::string> names{"uniform", "overcast", "gradient"};

@@ -25,8 +25,8 @@ class Sky {
     /// longitude; column u = 0.5 looks along -z and u grows towards +x. Throws Error if it is empty or
     /// holds NaN or negative values.
     static Sky latLong(FloatImage picture);
-    /// By name ("uniform", "overcast", "gradient": white above, grey at the horizon, brown below) or a
-    /// .hdr/.exr file.
+    /// By name ("uniform", "overcast", "gradient": linear, white above, grey at the horizon, brown below) or
+    /// a .hdr/.exr file.
     static Sky named(const std::string& nameOrFile);
 
     /// The same sky, so many times as bright.
