@@ -10,8 +10,10 @@
 
 #include "chapters/09_ambient_occlusion/sky.h"
 #include "chapters/11_bent_normals/irradiance_map.h"
+#include "chapters/11_bent_normals/irradiance_truth.h"
 #include "chapters/11_bent_normals/sh_irradiance.h"
 #include "common/math/hemisphere.h"
+#include "common/math/sampling.h"
 
 namespace penumbra {
 namespace {
@@ -209,6 +211,93 @@ TEST(IrradianceMap, IsExactAtItsTexelsAndHasNoSeam) {
     }
     EXPECT_EQ(map.at({0, 1, 0}), map.at({-0.0, 1, 0.0}));
     EXPECT_LE(relativeDistance(map.at(skyDirection(1.0 - 1e-14, 2.0)), map.at({0, 1, 0})), 1e-6);
+}
+
+// --- rays where the sky is bright --------------------------------------------------------------------------
+
+TEST(SkyDensity, IsADensity) {
+    const SkyDensity density(samplesOf(Sky::named(assets + "clear_sky.hdr")));
+    double total = 0.0;
+    for (const SkySample& s : sampleSky([&](const dvec3& w) { return dvec3(density.at(w)); }).samples)
+        total += s.power.r;
+    EXPECT_NEAR(total, 1.0, 1e-9);
+}
+
+TEST(SkyDensity, FindsAllOfTheLight) {
+    for (const char* name : {"clear_sky.hdr", "chapel.hdr"}) {
+        const Sky sky = Sky::named(assets + name);
+        const SkySamples samples = samplesOf(sky);
+        const SkyDensity density(samples);
+        dvec3 exact(0.0), estimate(0.0);
+        for (const SkySample& s : samples.samples) exact += s.power;
+        constexpr int count = 4096;
+        for (int i = 0; i < count; ++i) {
+            const dvec3 w = density.direction(owenSobol(std::uint32_t(i), 7));
+            ASSERT_NEAR(glm::length(w), 1.0, 1e-12);
+            estimate += sky.radiance(w) / (density.at(w) * count);
+        }
+        EXPECT_LE(relativeDistance(estimate, exact), 0.003) << name;
+    }
+}
+
+TEST(SkyDensity, OfABlackSkyIsNone) {
+    EXPECT_TRUE(SkyDensity(samplesOf(Sky::uniform(dvec3(0.0)))).isBlack());
+}
+
+/// A triangle with nothing around it, and a point in its middle.
+struct OpenPlane {
+    Scene scene;
+    Hit hit;
+
+    explicit OpenPlane(const dvec3& n) {
+        const glm::dmat3 frame = frameAround(n);
+        for (const dvec3& corner : {dvec3(-1, -1, 0), dvec3(1, -1, 0), dvec3(0, 1, 0)}) {
+            scene.positions.emplace_back(frame * corner);
+            scene.normals.emplace_back(n);
+            scene.uvs.emplace_back(0.0f);
+            scene.indices.push_back(std::uint32_t(scene.indices.size()));
+            scene.bounds.extend(dvec3(scene.positions.back()));
+        }
+        scene.parts.push_back({"triangle", 0, 1, 0, scene.bounds, false});
+        scene.clusters.push_back({0, 1, 0, scene.bounds});
+        scene.materials.emplace_back();
+        hit.valid = true;
+        hit.geometricNormal = hit.shadingNormal = n;
+    }
+};
+
+TEST(TracedIrradiance, IsTheConvolutionInTheOpen) {
+    for (const char* name : {"overcast", "clear_sky.hdr"}) {
+        const bool file = std::string(name).ends_with(".hdr");
+        const Sky sky = Sky::named(file ? assets + name : name);
+        const SkySamples samples = samplesOf(sky);
+        const SkyDensity density(samples);
+        const CosineConvolution convolution(samples);
+        for (const dvec3& n : {dvec3(0, 1, 0), glm::normalize(dvec3(1, 0.2, 0.3))}) {
+            const OpenPlane plane(n);
+            const RayTracer tracer(plane.scene);
+            dvec3 sum(0.0);
+            double squares = 0.0;
+            constexpr int trials = 32;
+            for (std::uint32_t seed = 0; seed < trials; ++seed) {
+                const dvec3 E = tracedIrradiance(tracer, plane.hit, sky, density, 512, seed);
+                sum += E / double(trials);
+                squares += E.g * E.g;
+            }
+            const double deviation = std::sqrt(std::max(0.0, squares / trials - sum.g * sum.g));
+            const double exact = convolution.irradiance(n).g;
+            // By the cosine alone a sun of 5 degrees is hit by one ray of the 512: 100 % of its light.
+            EXPECT_LE(deviation, 0.02 * exact) << name;
+            EXPECT_NEAR(sum.g, exact, 3.0 * deviation / std::sqrt(trials) + 2e-5 * exact) << name;
+        }
+    }
+}
+
+TEST(TracedIrradiance, NothingComesFromABlackSkyAndNothingIsNoNumber) {
+    const OpenPlane plane({0, 1, 0});
+    const RayTracer tracer(plane.scene);
+    const Sky black = Sky::uniform(dvec3(0.0));
+    EXPECT_EQ(tracedIrradiance(tracer, plane.hit, black, SkyDensity(samplesOf(black)), 64, 1), dvec3(0.0));
 }
 
 // --- the unnormalised pair ---------------------------------------------------------------------------------
