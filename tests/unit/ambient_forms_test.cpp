@@ -308,7 +308,7 @@ TEST(AmbientForms, OvercastSky) {
     for (const double tilt : {0.2, 1.0, 2.5}) {
         const glm::dvec3 up(-std::sin(tilt), 0.0, std::cos(tilt));
         Meridians sky = profileByMeridians(tilt, pi);
-        sky.within = [up](const glm::dvec3& w) { return (1.0 + 2.0 * glm::dot(up, w)) / 3.0; };
+        sky.radiance = [up](const glm::dvec3& w) { return (1.0 + 2.0 * glm::dot(up, w)) / 3.0; };
         EXPECT_NEAR(overcastIrradiance(ambientOnSlope(tilt), up), pi * quadrature(sky).cosine,
                     quadratureError);
     }

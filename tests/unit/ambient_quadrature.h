@@ -35,6 +35,8 @@ struct Meridians {
     std::function<std::pair<double, double>(double phi)> stretch;
     std::function<double(const glm::dvec3& w)> within = [](const glm::dvec3&) { return 0.0; };
     double outside = 1.0;
+    /// What shines there: then pi times `cosine` of the result is irradiance.
+    std::function<double(const glm::dvec3& w)> radiance = [](const glm::dvec3&) { return 1.0; };
     std::vector<double> breaks;  ///< azimuths where the stretch begins, ends or has a kink; any range
 };
 
@@ -59,7 +61,8 @@ inline AmbientForm quadrature(const Meridians& sky) {
         integrate(from, to, [&](double theta, double weight) {
             const double s = std::sin(theta);
             const glm::dvec3 w(s * std::cos(phi), s * std::sin(phi), std::cos(theta));
-            addDirection(form, w, width * weight * s * (within ? sky.within(w) : sky.outside));
+            addDirection(form, w,
+                         width * weight * s * sky.radiance(w) * (within ? sky.within(w) : sky.outside));
         });
     };
     for (std::size_t i = 1; i < cuts.size(); ++i)
