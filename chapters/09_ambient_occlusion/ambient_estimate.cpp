@@ -15,14 +15,6 @@ namespace {
 /// horizon, and rounding alone would say that it is below. An open plane would then not be exactly 1.
 constexpr double tangent = 1e-14;
 
-// [begin:falloff]
-/// How open is a direction whose nearest surface is `distance` away?
-double openAt(double distance, const AmbientReach& reach) {
-    const double t = std::clamp(distance / reach.range, 0.0, 1.0);
-    return 1.0 - (1.0 - t) * (1.0 - t);
-}
-// [end:falloff]
-
 /// How far away is the surface that blocks this direction? A candidate in float is good enough, since the
 /// falloff is continuous: an error of an ulp in the distance is one of an ulp in the openness. The start is
 /// lifted off the surface as shadow rays are; without the lift the surface would now and then be its own
@@ -36,6 +28,13 @@ double distanceAlong(const RayTracer& tracer, const Hit& from, const glm::dvec3&
 }
 
 }  // namespace
+
+// [begin:falloff]
+double openAt(double distance, const AmbientReach& reach) {
+    const double t = std::clamp(distance / reach.range, 0.0, 1.0);
+    return 1.0 - (1.0 - t) * (1.0 - t);
+}
+// [end:falloff]
 
 glm::dvec3 bentNormal(const AmbientValue& value, const glm::dvec3& normal) {
     const double length = glm::length(value.bent);

@@ -24,6 +24,9 @@ struct AmbientReach {
     bool smooth = false;
 };
 
+/// How open is a direction whose nearest surface is `distance` metres away, by the smooth falloff?
+double openAt(double distance, const AmbientReach& reach);
+
 /// With V(w) in [0,1], how open direction w is, over the hemisphere about n:
 /// cosine:  visibility = 1/pi int V (n.w) dw,   bent = 1/pi int V w (n.w) dw   (open: 1 and (2/3) n)
 /// uniform: visibility = 1/2pi int V dw,        bent = 1/2pi int V w dw        (open: 1 and (1/2) n)
