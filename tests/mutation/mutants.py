@@ -109,6 +109,7 @@ class ArchiveMutations(unittest.TestCase):
     """Programs that need the whole library: only the broken file is compiled anew, as the build compiles it, and linked in front
     of the archives of a finished build. A subclass sets:"""
     mutations = {}  # name: (file or shader, unit program, filter of the tests that must fail, [(old, new), ...])
+    unbroken = {}   # (program, filter): do they pass? Asked once.
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -143,7 +144,9 @@ class ArchiveMutations(unittest.TestCase):
         file, unit, test, replacements = self.mutations[name]
         program = f"unit_{unit}"
         commands = commandsOf(program)
-        self.assertTrue(self.passes(BUILD / "bin" / program, test), f"{program} fails without any mutation")
+        if (program, test) not in self.unbroken:
+            self.unbroken[program, test] = self.passes(BUILD / "bin" / program, test)
+        self.assertTrue(self.unbroken[program, test], f"{program} fails without any mutation")
         text = broken(self, name, file, replacements)
         if file.startswith("shaders/"):
             shutil.copytree(ROOT / "shaders", self.folder / "shaders")
