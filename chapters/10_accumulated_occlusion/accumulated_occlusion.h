@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "chapters/09_ambient_occlusion/ambient_estimate.h"
@@ -14,11 +13,12 @@ namespace penumbra {
 
 /// The result, on the GPU: a texel for each pixel of the frame, or for each vertex of the scene.
 struct AmbientTextures {
-    /// RGBA32F. w: ambient visibility A, 0 to 1; xyz: bent vector, not normalised (open: 2/3 n). 0 where there
-    /// is no surface. Cosine weighting: AmbientValue of chapter 09.
+    /// RGBA32F. w: ambient visibility A, 0 to 1; xyz: bent vector, not normalised (open: 2/3 n). All 0 where
+    /// there is no surface, or no direction above the horizon. Cosine weighting: AmbientValue of chapter 09.
     GLuint ambient = 0;
-    /// RGBA32F. xyz: irradiance under the sky asked for; w: number of directions above the horizon.
-    GLuint irradiance = 0;
+    /// RGBA32F. xyz: light that arrives, E / pi, under the sky asked for; w: in the view "work", the share of
+    /// the directions that were looked up (xyz then are counts).
+    GLuint light = 0;
     glm::ivec2 size{0};
     /// Texel (i % size.x, i / size.x) is vertex i (gl_VertexID); false: texel of pixel gl_FragCoord.
     bool perVertex = false;
@@ -31,11 +31,12 @@ class AccumulatedOcclusion {
     AccumulatedOcclusion(AccumulatedOcclusion&&) noexcept;
     AccumulatedOcclusion& operator=(AccumulatedOcclusion&&) noexcept;
 
-    /// Brings the textures up to date for this frame: valid until the next call. Does nothing if they are up to
-    /// date already and `frame.skip` (and maps need not be drawn again); with `options.rotate` adds another
-    /// `options.samples` directions as long as nothing else changes. A(x) = sum V max(0, n.l) / sum max(0, n.l)
-    /// over all directions so far. Counts shadow_maps_rendered, shadow_maps_skipped, triangles_submitted,
-    /// draw_calls, visibility_tests. Leaves frame.framebuffer bound, with its viewport.
+    /// Brings the textures up to date for this frame: valid until the next call. Does nothing if they are up
+    /// to date already and `frame.skip` (and maps need not be drawn again); with `options.rotate` adds
+    /// another `options.samples` directions as long as nothing else changes. A(x) = sum V max(0, n.l) / sum
+    /// max(0, n.l) over all directions so far. Counts directions_added, shadow_maps_rendered,
+    /// shadow_maps_skipped, triangles_submitted, draw_calls. Leaves frame.framebuffer bound, with its
+    /// viewport, and the depth test off. Throws Error where floats cannot be drawn into.
     AmbientTextures update(const Frame& frame, const OcclusionOptions& options, const Sky& sky);
 
     /// values[i] of vertex i, read back. The latest update must have been per vertex.
@@ -47,8 +48,5 @@ class AccumulatedOcclusion {
     struct State;
     std::unique_ptr<State> state_;
 };
-
-/// Sets the uniforms of 10_accumulated_occlusion/ambient.glsl.
-void setAmbient(Program& program, const AmbientTextures& textures);
 
 }  // namespace penumbra

@@ -11,8 +11,8 @@ namespace penumbra {
 /// "fibonacci", "owen-sobol", "random": the choices of --directions.
 const std::vector<std::string>& directionPatternNames();
 
-/// `count` (at least 1) unit vectors towards the sky, equally dense on the whole sphere: points share them, and
-/// their normals look everywhere. `pattern`: one of directionPatternNames(), UsageError otherwise. `seed`
+/// `count` (at least 1) unit vectors towards the sky, equally dense on the whole sphere: points share them,
+/// and their normals look everywhere. `pattern`: one of directionPatternNames(), UsageError otherwise. `seed`
 /// chooses the random part of owen-sobol and random; fibonacci has none.
 std::vector<glm::dvec3> skyDirections(int count, const std::string& pattern, std::uint32_t seed);
 
