@@ -2,7 +2,6 @@
 // Sloan, "Least Squares Vertex Baking", 2011, Eurographics Symposium on Rendering).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -17,9 +16,9 @@ struct SurfaceSample {
     double area = 0.0;            ///< m^2 that the sample stands for
 };
 
-/// Point `index` of `count` on a triangle, so that every three or more of them are not in a line: what keeps
-/// the system of equations definite. `seed`: one for each triangle.
-glm::dvec2 stratifiedBarycentric(int index, int count, std::uint32_t seed);
+/// Barycentric coordinates (of the second and third corner) of point `index` on a triangle: the first 2^k are
+/// spread evenly, and no three of them lie in a line. `seed`: one for each triangle.
+glm::dvec2 stratifiedBarycentric(int index, std::uint32_t seed);
 
 /// The values x at `vertices` vertices that minimise  sum_s area_s (interpolated x at s - value_s)^2, for
 /// each of `channels` channels: returns vertices * channels numbers. The normal equations are sparse,

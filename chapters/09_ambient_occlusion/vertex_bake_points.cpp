@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "chapters/09_ambient_occlusion/least_squares.h"
 #include "common/math/hemisphere.h"
+#include "common/math/sampling.h"
 #include "common/truth/shadow_packet.h"
 #include "common/truth/surface_hit.h"
 
@@ -113,6 +115,22 @@ BakePoints trianglePoints(const Scene& scene) {
         result.points[point].corner = false;
         result.triangles[point] = t;
     }
+    return result;
+}
+
+BakePoints spreadPoints(const Scene& scene, int perTriangle, std::uint32_t seed) {
+    BakePoints result;
+    for (std::uint32_t t = 0; t < scene.triangleCount(); ++t)
+        for (int k = 0; k < perTriangle; ++k) {
+            const Hit hit = surfaceHit(scene, t, stratifiedBarycentric(k, hashSeed(t, seed)));
+            const bool turnedOver = !(glm::dot(hit.shadingNormal, hit.geometricNormal) > 0.0);
+            const auto index = std::uint32_t(result.points.size());
+            result.points.push_back({glm::vec3(hit.position),
+                                     glm::vec3(turnedOver ? hit.geometricNormal : hit.shadingNormal), index,
+                                     1, false});
+            result.triangles.push_back(t);
+            result.pointOf.push_back(index);
+        }
     return result;
 }
 

@@ -42,6 +42,10 @@ BakePoints vertexPoints(const Scene& scene);
 /// The centroid of every triangle, about the triangle's normal.
 BakePoints trianglePoints(const Scene& scene);
 
+/// `perTriangle` points spread over every triangle (stratifiedBarycentric), about the interpolated normal:
+/// those of triangle t are points [t perTriangle, (t + 1) perTriangle), in no other order.
+BakePoints spreadPoints(const Scene& scene, int perTriangle, std::uint32_t seed);
+
 /// What a point's own triangles do to its rays. From a vertex, rays may pass under one of the triangles that
 /// meet there, and no offset along one normal is right for all of them. So the circle around the point is cut
 /// into sectors, one for each triangle; a ray that goes out over a triangle begins a little inside of it,
