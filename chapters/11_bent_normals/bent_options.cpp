@@ -16,8 +16,10 @@ void BentOptions::declare(Parameters& parameters) {
                    "how open directions count; uniform: the lecture's loop, B leans too far");
     parameters.add("lookup", lookUp, {"normal", "bent"},
                    "direction in which the irradiance is looked up; normal: an arch is lit by its own wall");
-    parameters.add("irradiance", irradiance, {"sh", "map", "linear"},
-                   "sh: nine numbers; map: a picture; linear: four numbers and (A, B) unnormalised");
+    parameters.add(
+        "irradiance", irradiance, {"sh", "map", "linear", "normalised"},
+        "sh: nine numbers; map: a picture; linear: four numbers and (A, B) as they are; normalised: "
+        "the same with B of length 1, too bright");
     parameters.addOrFile("sky", sky, {"uniform", "overcast", "gradient"},
                          "what shines: a name, or a latitude-longitude picture (.hdr, .exr)");
     parameters.add("combine", combine, {"principled", "adhoc", "none"},
@@ -29,8 +31,8 @@ void BentOptions::declare(Parameters& parameters) {
 }
 
 void BentOptions::requireSense() const {
-    if (irradiance == "linear" && weighting == "uniform")
-        throw UsageError("--irradiance linear: takes the cosine-weighted pair; leave --weighting at cosine");
+    if (isLinear() && weighting == "uniform")
+        throw UsageError("--irradiance linear takes the cosine-weighted pair; leave --weighting at cosine");
     if (source == "maps" && weighting == "uniform")
         throw UsageError("--source maps: adds up by the cosine; use --source rays with --weighting uniform");
 }

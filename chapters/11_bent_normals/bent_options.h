@@ -18,6 +18,8 @@ struct BentOptions {
     void declare(Parameters& parameters);
     /// Throws UsageError for combinations that mean nothing.
     void requireSense() const;
+    /// Is the sky taken as a linear function of the direction?
+    bool isLinear() const { return irradiance == "linear" || irradiance == "normalised"; }
     /// The same in the words of chapters 09 and 10. The references last as long as this does.
     const AmbientOptions& ambient() const;
     const OcclusionOptions& occlusion() const;

@@ -15,26 +15,51 @@ using std::numbers::pi;
 
 constexpr int groupSide = 8;  ///< samples; of 4 to 32 the quickest
 constexpr int smallestLevel = 2, largestLevel = 6;
-constexpr int checkedDirections = 512;
+constexpr int checkedDirections = 384;
 
 double largest(const glm::dvec3& v) {
     return std::max(v.r, std::max(v.g, v.b));
 }
 
-/// Compares look-ups with the sum itself, in directions that have nothing to do with rows and columns.
-void measure(IrradianceMap& map, const CosineConvolution& sky) {
-    double squares = 0.0, peak = 0.0;
-    for (int i = 0; i < checkedDirections; ++i) {
-        const glm::dvec3 n = fibonacciSphere(i, checkedDirections);
-        const glm::dvec3 exact = sky.irradiance(n);
-        const double error = largest(glm::abs(map.at(n) - exact));
+/// The sum itself in directions that have nothing to do with rows and columns.
+struct Checks {
+    std::vector<glm::dvec3> normals, exact;
+    double peak = 0.0;  ///< largest value of a channel
+
+    explicit Checks(const CosineConvolution& sky) : normals(checkedDirections), exact(checkedDirections) {
+        parallelRows(checkedDirections, [&](int i) {
+            normals[std::size_t(i)] = fibonacciSphere(i, checkedDirections);
+            exact[std::size_t(i)] = sky.irradiance(normals[std::size_t(i)]);
+        });
+        for (const glm::dvec3& E : exact) peak = std::max(peak, largest(E));
+    }
+};
+
+void measure(IrradianceMap& map, const Checks& checks) {
+    if (checks.peak == 0.0) return;  // a black sky
+    double squares = 0.0;
+    for (std::size_t i = 0; i < checks.normals.size(); ++i) {
+        const double error = largest(glm::abs(map.at(checks.normals[i]) - checks.exact[i])) / checks.peak;
         squares += error * error;
-        peak = std::max(peak, largest(exact));
         map.worst = std::max(map.worst, error);
     }
-    if (peak == 0.0) return;  // a black sky
-    map.rmse = std::sqrt(squares / checkedDirections) / peak;
-    map.worst /= peak;
+    map.rmse = std::sqrt(squares / checkedDirections);
+}
+
+IrradianceMap convolved(const CosineConvolution& sky, int level, const Checks& checks) {
+    const glm::ivec2 size(2 << level, (1 << level) + 1);
+    IrradianceMap map{FloatImage(size.x, size.y, 3)};
+    parallelRows(size.y, [&](int row) {
+        const bool pole = row == 0 || row == size.y - 1;  // one direction, in every column
+        const double y = std::cos(pi * row / (size.y - 1));
+        glm::dvec3 E(0.0);
+        for (int column = 0; column < size.x; ++column) {
+            if (!pole || column == 0) E = sky.irradiance(skyDirection(y, 2.0 * pi * column / size.x));
+            for (int c = 0; c < 3; ++c) map.texels.at(column, row, c) = float(E[c]);
+        }
+    });
+    measure(map, checks);
+    return map;
 }
 
 }  // namespace
@@ -100,26 +125,17 @@ glm::dvec3 IrradianceMap::at(const glm::dvec3& n) const {
 }
 
 IrradianceMap convolveSky(const CosineConvolution& sky, int level) {
-    const glm::ivec2 size(2 << level, (1 << level) + 1);
-    IrradianceMap map{FloatImage(size.x, size.y, 3)};
-    parallelRows(size.y, [&](int row) {
-        const bool pole = row == 0 || row == size.y - 1;  // one direction, in every column
-        const double y = std::cos(pi * row / (size.y - 1));
-        glm::dvec3 E(0.0);
-        for (int column = 0; column < size.x; ++column) {
-            if (!pole || column == 0) E = sky.irradiance(skyDirection(y, 2.0 * pi * column / size.x));
-            for (int c = 0; c < 3; ++c) map.texels.at(column, row, c) = float(E[c]);
-        }
-    });
-    measure(map, sky);
-    return map;
+    return convolved(sky, level, Checks(sky));
 }
 
+// [begin:size]
 IrradianceMap smallestIrradianceMap(const CosineConvolution& sky, double tolerance) {
-    IrradianceMap map = convolveSky(sky, smallestLevel);
+    const Checks checks(sky);
+    IrradianceMap map = convolved(sky, smallestLevel, checks);
     for (int level = smallestLevel + 1; level <= largestLevel && map.rmse > tolerance; ++level)
-        map = convolveSky(sky, level);
+        map = convolved(sky, level, checks);
     return map;
 }
+// [end:size]
 
 }  // namespace penumbra

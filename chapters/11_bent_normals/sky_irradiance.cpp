@@ -39,6 +39,7 @@ int SkyIrradiance::update(const Scene& scene, const BentOptions& options) {
 }
 
 std::vector<std::string> SkyIrradiance::defines(const BentOptions& options) const {
+    if (options.irradiance == "normalised") return {"LINEAR", "NORMALISED"};
     return {options.irradiance == "sh" ? "HARMONICS" : options.irradiance == "map" ? "MAP" : "LINEAR"};
 }
 

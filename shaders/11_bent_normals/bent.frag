@@ -37,7 +37,9 @@ vec3 bentNormal(vec3 bent, vec3 n) {
 
 // [begin:ambient-term]
 vec3 ambientIrradiance(vec4 seen, vec3 n) {
-#ifdef LINEAR
+#if defined(NORMALISED)
+    return pairIrradiance(vec4(bentNormal(seen.xyz, n), seen.w));
+#elif defined(LINEAR)
     return pairIrradiance(seen);
 #else
     return seen.w * skyIrradiance(uLookUpBent ? bentNormal(seen.xyz, n) : n);
