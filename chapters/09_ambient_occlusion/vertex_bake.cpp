@@ -43,6 +43,9 @@ class Bake {
 
  private:
     void findOpen();
+    /// Is it known that point `i` sees the whole sky? Without the skip that is not believed: all rays are
+    /// traced, and one that is blocked makes it a point like any other.
+    bool seesAll(std::size_t i, int count, std::int64_t& traced);
     void firstRays();
     std::vector<float> askNeighbours(const SharedRays& sharing);
     void refine(float threshold);
@@ -67,7 +70,7 @@ class Bake {
     const BakeSettings& settings_;
     const ProgressCallback& progress_;
     double reach_;
-    std::vector<std::uint8_t> open_;  ///< 1: sees the whole sky, no ray
+    std::vector<std::uint8_t> open_;  ///< 1: sees the whole sky, no ray needed
     std::vector<OwnEstimate> own_;
     std::vector<NeighbourEstimate> others_;
     int firstCount_ = 0;
@@ -95,17 +98,24 @@ void Bake::findOpen() {
     forEachPoint(0.0, 0.02, [&](std::size_t i, std::int64_t&) {
         const BakePoint& point = points_.points[i];
         const bool noPlane = point.normal == glm::vec3(0.0f);  // a triangle without extent
-        open_[i] = noPlane || (settings_.skip &&
-                               !horizon.anythingAbove(glm::dvec3(point.position), glm::dvec3(point.normal),
-                                                      settings_.rays.reach.range));
+        open_[i] = noPlane || !horizon.anythingAbove(glm::dvec3(point.position), glm::dvec3(point.normal),
+                                                     settings_.rays.reach.range);
     });
+}
+
+bool Bake::seesAll(std::size_t i, int count, std::int64_t& traced) {
+    if (!open_[i] || settings_.skip || points_.points[i].normal == glm::vec3(0.0f)) return open_[i] != 0;
+    open_[i] = trace(i, count, 0, traced).visibility == count;
+    return open_[i] != 0;
 }
 
 std::vector<AmbientValue> Bake::alone() {
     std::vector<AmbientValue> values(points_.points.size());
     forEachPoint(0.02, 1.0, [&](std::size_t i, std::int64_t& traced) {
-        values[i] = open_[i] ? wholeSky(glm::dvec3(points_.points[i].normal), settings_.rays.weighting)
-                             : trace(i, settings_.rays.count, 0, traced).mean(settings_.rays.count);
+        const int count = settings_.rays.count;
+        values[i] = seesAll(i, count, traced)
+                        ? wholeSky(glm::dvec3(points_.points[i].normal), settings_.rays.weighting)
+                        : trace(i, count, 0, traced).mean(count);
     });
     bytes_ = std::int64_t(values.size() * sizeof(AmbientValue));
     return values;
@@ -121,7 +131,7 @@ void Bake::firstRays() {
     firstCount_ = std::max(8, settings_.rays.count / 6 * 2);
     own_.resize(points_.points.size());
     forEachPoint(0.02, 0.5, [&](std::size_t i, std::int64_t& traced) {
-        if (open_[i]) {
+        if (seesAll(i, firstCount_, traced)) {
             own_[i] =
                 estimateOf(wholeSky(glm::dvec3(points_.points[i].normal), settings_.rays.weighting), 0.0);
             return;
@@ -198,7 +208,7 @@ BakeWork Bake::work() const {
     BakeWork work;
     work.points = std::int64_t(points_.pointOf.size());
     work.merged = work.points - std::int64_t(points_.points.size());
-    work.skipped = std::count(open_.begin(), open_.end(), std::uint8_t(1));
+    work.skipped = settings_.skip ? std::count(open_.begin(), open_.end(), std::uint8_t(1)) : 0;
     work.rays = rays_;
     work.bytes = bytes_ + std::int64_t(points_.bytes() + open_.size());
     return work;
