@@ -16,6 +16,27 @@
 
 namespace penumbra {
 
+/// Exactly what is seen from `point` past the triangles that turn their front to it, if none of these hides
+/// another: the sky less what each of them hides. Columns of `worldFromPoint`: tangent, bitangent, normal.
+inline AmbientForm exactForm(const Scene& scene, const glm::dvec3& point, const glm::dmat3& worldFromPoint) {
+    const glm::dmat3 pointFromWorld = glm::transpose(worldFromPoint);
+    DirectionMoments blocked;
+    for (std::uint32_t t = 0; t < scene.triangleCount(); ++t) {
+        Polygon3 triangle;
+        for (const glm::dvec3& corner : cornersOf(scene, t)) triangle.push(pointFromWorld * (corner - point));
+        // Its back; or the point lies in its plane, but for rounding.
+        const double size = glm::length(triangle[0]) * glm::length(triangle[1]) * glm::length(triangle[2]);
+        if (glm::dot(triangle[0], glm::cross(triangle[1], triangle[2])) >= -1e-14 * size) continue;
+        const Polygon3 above = clip(triangle, [](const glm::dvec3& p) { return p.z; });
+        if (above.empty()) continue;
+        const DirectionMoments m = polygonMoments(above.span());
+        blocked.solidAngle += m.solidAngle;
+        blocked.first += m.first;
+        blocked.second += m.second;
+    }
+    return ambientBesides(blocked);
+}
+
 /// A scene around one of its points, the centroid of triangle 0. It is described in any frame, and turned and
 /// moved from there into the world by what the constructor is given.
 class AmbientScene {
@@ -63,26 +84,7 @@ class AmbientScene {
         return {x, glm::cross(n, x), n};
     }
 
-    /// Exactly what is seen past the triangles that turn their front to the point, if none of these hides
-    /// another: the sky less what each of them hides.
-    AmbientForm exact() const {
-        const Hit hit = point();
-        const glm::dmat3 pointFromWorld = glm::transpose(worldFromPoint());
-        DirectionMoments blocked;
-        for (std::uint32_t t = 1; t < scene_.triangleCount(); ++t) {
-            Polygon3 triangle;
-            for (const glm::dvec3& corner : cornersOf(scene_, t))
-                triangle.push(pointFromWorld * (corner - hit.position));
-            if (glm::dot(triangle[0], glm::cross(triangle[1], triangle[2])) >= 0.0) continue;  // its back
-            const Polygon3 above = clip(triangle, [](const glm::dvec3& p) { return p.z; });
-            if (above.empty()) continue;
-            const DirectionMoments m = polygonMoments(above.span());
-            blocked.solidAngle += m.solidAngle;
-            blocked.first += m.first;
-            blocked.second += m.second;
-        }
-        return ambientBesides(blocked);
-    }
+    AmbientForm exact() const { return exactForm(scene_, point().position, worldFromPoint()); }
 
  private:
     Scene scene_;

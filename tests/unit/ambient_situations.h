@@ -51,7 +51,8 @@ inline void wall(AmbientScene& s, double x, double h, double half) {
 
 /// In a unit sphere that is open from `rim` on, a point `angle` from the bottom. Only the rim has to be where
 /// it is: below it the bowl is a little larger than the sphere, so that its facets stay behind the point.
-inline void pit(AmbientScene& s, double rim, double angle) {
+inline void pit(AmbientScene& s, double rim, double angle, std::uint32_t rings = 10,
+                std::uint32_t sectors = 128) {
     const auto at = [](double radius, double polar, double turn) {
         return radius * glm::dvec3(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
                                    -std::cos(polar));
@@ -59,7 +60,6 @@ inline void pit(AmbientScene& s, double rim, double angle) {
     const glm::dvec3 point = at(1.0, angle, 0.0);
     const glm::dvec3 x(0.01 * std::cos(angle), 0.0, 0.01 * std::sin(angle)), y(0.0, 0.01, 0.0);
     s.mesh({point - x - y, point + 2.0 * x - y, point - x + 2.0 * y}, {0, 1, 2});
-    constexpr std::uint32_t rings = 10, sectors = 128;
     std::vector<glm::dvec3> points;
     std::vector<std::uint32_t> indices;
     for (std::uint32_t r = 0; r <= rings; ++r)
@@ -104,7 +104,7 @@ inline void disk(AmbientScene& s, const glm::dvec3& centre, double radius) {
 
 inline std::vector<Situation> situations() {
     std::vector<Situation> all;
-    const auto onGround = [](std::function<void(AmbientScene&)> build) {
+    const auto onGround = [](const std::function<void(AmbientScene&)>& build) {
         return [build](AmbientScene& s) { s.ground(), build(s); };
     };
     const auto sphere = [&](const char* name, const glm::dvec3& centre) {
