@@ -67,7 +67,9 @@ void PixelRays::traceRow(const Frame& frame, const AmbientOptions& options, cons
 void PixelRays::update(const Frame& frame, const AmbientOptions& options) {
     const SkyLight& light = options.light(frame.scene);
     findHits(frame);
-    const std::string key = options.visibilityKey(frame.seed) + options.lightKey() + (frame.skip ? "" : "!");
+    const bool middleRow = frame.view == "profile";  // shows no other
+    const std::string key = options.visibilityKey(frame.seed) + options.lightKey() +
+                            (frame.skip ? "" : " all") + (middleRow ? " middle row" : "");
     if (frame.renderMapsAgain || key != key_) {
         key_ = key;
         counts_ = {};
@@ -77,6 +79,7 @@ void PixelRays::update(const Frame& frame, const AmbientOptions& options) {
         parallelRows(
             size_.y,
             [&](int y) {
+                if (middleRow && y != size_.y / 2) return;
                 Counts counts;
                 traceRow(frame, options, light, y, counts);
                 const std::lock_guard lock(mutex);

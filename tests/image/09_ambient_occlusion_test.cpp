@@ -326,9 +326,11 @@ TEST(Chapter09Light, RaysBringAnySkyAndTheSun) {
 
 // --- stored ------------------------------------------------------------------------------------------------
 
-// On a fine mesh interpolation adds little to the noise of 256 rays; on triangles of 8 cm, more.
+// The gullies' mesh is fine enough for what is between its points to add nothing to the error of 256 rays,
+// 0.0065 and 15 % on top; of 256 directions that all points share, 0.0114, and 30 %.
 TEST(Chapter09Stored, VerticesAndTrianglesAreNearTheTruth) {
-    const std::pair<const char*, double> cases[] = {{"vertices", 0.05}, {"triangles", 0.06}, {"bits", 0.05}};
+    const std::pair<const char*, double> cases[] = {
+        {"vertices", 1.15 * 0.0065}, {"triangles", 1.15 * 0.0065}, {"bits", 1.3 * 0.0114}};
     for (const auto& [method, bound] : cases) {
         ChapterHarness harness =
             harnessOf(testScene("gully"), {{"method", method}, {"samples", "256"}, {"truth-rays", "1024"}});
@@ -365,7 +367,8 @@ TEST(Chapter09Stored, ASavedSceneIsDrawnAsItWasBaked) {
             harnessOf(testScene("contact"), {{"method", "vertices"}, {"samples", "16"}, {"save", file}});
         baked = harness.scalar("ambient", small);
     }
-    ChapterHarness harness = harnessOf(loadGltf(file), {{"method", "stored"}});
+    const Scene saved = loadGltf(file);
+    ChapterHarness harness = harnessOf(saved, {{"method", "stored"}});
     harness.camera = testScene("contact").cameras.at(0);
     const FloatImage stored = harness.scalar("ambient", small);
     EXPECT_EQ(differing(baked, stored), 0u);
