@@ -18,7 +18,7 @@ int viewNumber(const std::string& view) {
 }  // namespace
 
 void AmbientPicture::begin(Program& program, const Frame& frame, const AmbientOptions& options) {
-    backdrop_.draw(frame, options);
+    backdrop_.draw(frame, options, frame.view == "color");
     glEnable(GL_DEPTH_TEST);
     program.set("uClipFromWorld",
                 glm::mat4(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y)));

@@ -24,10 +24,10 @@ std::vector<float> latLongTexels(const Sky& sky, const glm::ivec2& size) {
 
 }  // namespace
 
-void Backdrop::draw(const Frame& frame, const AmbientOptions& options) {
+void Backdrop::draw(const Frame& frame, const AmbientOptions& options, bool seen) {
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    if (frame.view != "color") return;
+    if (!seen) return;
     const glm::ivec2 size(512, 256);
     const std::string key = options.lightKey();
     if (!sky_ || key != key_) {

@@ -13,8 +13,8 @@ namespace penumbra {
 
 class Backdrop {
  public:
-    /// Clears the frame, depth too, and in the view "color" fills it with the sky that shines.
-    void draw(const Frame& frame, const AmbientOptions& options);
+    /// Clears the frame, depth too, and fills it with the sky that shines if that is to be `seen`.
+    void draw(const Frame& frame, const AmbientOptions& options, bool seen);
     Program& program() { return program_; }
 
  private:
