@@ -25,9 +25,10 @@ class OpenPlanes {
     enum class Known : std::uint8_t { notYet, open, notOpen };
 
     bool nothingAboveTriangle(const Hit& from) const;
-    bool reachesAbove(const Cluster& cluster, const Hit& from) const;
+    bool reachesAbove(const Cluster& cluster, const Hit& from, double range) const;
 
     const Scene& scene_;
+    std::vector<Aabb> boxes_;                        ///< of the triangles
     mutable std::vector<std::atomic<Known>> known_;  ///< front and back of each triangle
 };
 

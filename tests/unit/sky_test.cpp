@@ -164,6 +164,16 @@ TEST(OpenPlanes, OnlyWhatRisesAboveThePlaneWithinRangeCounts) {
     back.geometricNormal = -back.geometricNormal;
     EXPECT_FALSE(planes.nothingAbove(back, infinite));
     EXPECT_TRUE(planes.nothingAbove(below(tracer, -0.9, -0.9), 0.5));
+
+    // Of one cluster it is its triangles that count: a quad far up and one that is far away.
+    std::vector<std::array<dvec3, 3>> far;
+    for (const dvec3& corner : {dvec3(0, 9, 0), dvec3(3, 0, 0)})
+        far.push_back({corner, corner + dvec3(0.1, 0, 0), corner + dvec3(0, 0.5, 0.1)});
+    const Scene apart = floorScene().part(far, false).take();
+    const RayTracer otherTracer(apart);
+    const OpenPlanes otherPlanes(apart);
+    EXPECT_TRUE(otherPlanes.nothingAbove(below(otherTracer, 0.9, -0.5), 1.5));
+    EXPECT_FALSE(otherPlanes.nothingAbove(below(otherTracer, 0.9, -0.5), 2.5));
 }
 
 TEST(OpenPlanes, APlaneOfManyTrianglesInAnyDirectionIsOpen) {
