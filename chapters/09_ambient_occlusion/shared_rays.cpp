@@ -7,11 +7,13 @@
 
 #include "common/math/hemisphere.h"
 #include "common/math/wide.h"
+#include "common/truth/parallel.h"
 
 namespace penumbra {
 
 namespace {
 
+constexpr int pointsAtOnce = 256;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Neighbours asked, the point itself included. Fewer: more rays are needed; more: it takes longer than the
@@ -29,7 +31,7 @@ constexpr float leastNoise = 1e-8f;
 
 /// Beyond this multiple of the noise the neighbours' differences are not noise. With 31 differences it is
 /// exceeded by chance about once in ten times; 1: every second time, and rays are wasted; 2: edges blur.
-constexpr float explained = 1.4f;
+constexpr float explained = 1.0f;
 
 /// Coefficients of the function: two along the surface, two with the normal, one with the depth, three of
 /// second degree, and the constant last: eliminated in this order, the constant is what remains. Each is
@@ -94,18 +96,39 @@ struct Seen {
 
 SharedRays::SharedRays(const BakePoints& points, const PointNeighbours& neighbours,
                        std::span<const OwnEstimate> own)
-    : points_(points), neighbours_(neighbours), own_(own), depths_(points.points.size(), 0.0f) {
-    for (std::size_t i = 0; i < depths_.size(); ++i) {
-        const BakePoint& point = points.points[i];
-        glm::vec3 sum(0.0f);
-        float lengths = 0.0f;
-        for (const std::uint32_t j : neighbours.of(i)) {
-            const glm::vec3 to = points.points[j].position - point.position;
-            sum += to;
-            lengths += glm::length(to);
+    : points_(points),
+      neighbours_(neighbours),
+      own_(own),
+      depths_(points.points.size(), 0.0f),
+      noises_(points.points.size(), 0.0f) {
+    const int count = int(depths_.size());
+    parallelRows((count + pointsAtOnce - 1) / pointsAtOnce, [&](int row) {
+        for (int i = row * pointsAtOnce; i < std::min(count, (row + 1) * pointsAtOnce); ++i) {
+            depths_[std::size_t(i)] = depthOf(std::uint32_t(i));
+            noises_[std::size_t(i)] = noiseAround(std::uint32_t(i));
         }
-        if (lengths > 0.0f) depths_[i] = glm::dot(sum, point.normal) / lengths;
+    });
+}
+
+/// How deep a point lies between its neighbours, -1 to 1.
+float SharedRays::depthOf(std::uint32_t i) const {
+    const BakePoint& point = points_.points[i];
+    glm::vec3 sum(0.0f);
+    float lengths = 0.0f;
+    for (const std::uint32_t j : neighbours_.of(i)) {
+        const glm::vec3 to = points_.points[j].position - point.position;
+        sum += to;
+        lengths += glm::length(to);
     }
+    return lengths > 0.0f ? glm::dot(sum, point.normal) / lengths : 0.0f;
+}
+
+/// The halves of one point say little about its noise, those of all around it more.
+float SharedRays::noiseAround(std::uint32_t i) const {
+    const std::span<const std::uint32_t> near = around(i);
+    float halves = 0.0f;
+    for (const std::uint32_t j : near) halves += own_[j].halves;
+    return halves / (halvesOverNoise * float(near.size()));
 }
 
 /// The nearest points along the surface, in rings; `i` first.
@@ -135,9 +158,9 @@ NeighbourEstimate SharedRays::at(std::uint32_t i) const {
     for (std::size_t k = 0; k < near.size(); ++k) {
         places[k] = localFromWorld * (points_.points[near[k]].position - point.position);
         radius = std::max(radius, places[k].x * places[k].x + places[k].y * places[k].y);
-        noise += own_[near[k]].halves;
+        noise += noises_[near[k]];
     }
-    noise = std::max(leastNoise, noise / (halvesOverNoise * float(near.size())));
+    noise = std::max(leastNoise, noise / float(near.size()));
     if (near.size() < fewest || !(radius > 0.0f)) return {own_[i].value, infinity, noise};
 
     const float perRadius = 1.0f / std::sqrt(radius);

@@ -45,15 +45,17 @@ class SharedRays {
     /// For point `i`. May run on many threads.
     NeighbourEstimate at(std::uint32_t i) const;
 
-    std::size_t bytes() const { return depths_.size() * sizeof(float); }
+    std::size_t bytes() const { return 2 * depths_.size() * sizeof(float); }
 
  private:
     std::span<const std::uint32_t> around(std::uint32_t i) const;
+    float depthOf(std::uint32_t i) const;
+    float noiseAround(std::uint32_t i) const;
 
     const BakePoints& points_;
     const PointNeighbours& neighbours_;
     std::span<const OwnEstimate> own_;
-    std::vector<float> depths_;  ///< how deep each point lies between its neighbours, -1 to 1
+    std::vector<float> depths_, noises_;  ///< of each point
 };
 
 /// The mean of two estimates of variances `variance` and `otherVariance`, weighted so that its own, the

@@ -1,6 +1,7 @@
 #include "chapters/09_ambient_occlusion/vertex_bake_horizon.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "chapters/09_ambient_occlusion/vertex_bake_points.h"
 #include "common/truth/shadow_packet.h"
@@ -34,6 +35,7 @@ struct Horizon::Query {
 Horizon::Horizon(const Scene& scene)
     : scene_(scene), tolerance_(8.0 * 0x1p-23 * largestCoordinate(scene.bounds)) {
     sortTriangles();
+    chooseScouts();
     std::vector<Aabb> boxes((triangles_.size() + fan - 1) / fan);
     for (std::size_t i = 0; i < triangles_.size(); ++i)
         for (const glm::dvec3& corner : cornersOf(scene, triangles_[i])) boxes[i / fan].extend(corner);
@@ -57,7 +59,17 @@ void Horizon::sortTriangles() {
     for (const auto& [code, t] : keys) triangles_.push_back(t);
 }
 
+void Horizon::chooseScouts() {
+    constexpr std::size_t many = 64;
+    const std::size_t step = std::max<std::size_t>(1, triangles_.size() / many);
+    for (std::size_t i = 0; i < triangles_.size(); i += step)
+        scouts_.push_back(scene_.positions[scene_.indices[3 * std::size_t(triangles_[i])]]);
+}
+
 bool Horizon::anythingAbove(const glm::dvec3& position, const glm::dvec3& normal, double range) const {
+    if (std::isinf(range))
+        for (const glm::vec3& scout : scouts_)
+            if (glm::dot(normal, glm::dvec3(scout) - position) > tolerance_) return true;
     const Query query{position, normal, range * range};
     const std::size_t top = levels_.size() - 1;
     for (std::size_t box = 0; box < levels_[top].size(); ++box)

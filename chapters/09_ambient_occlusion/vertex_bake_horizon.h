@@ -24,11 +24,13 @@ class Horizon {
  private:
     struct Query;
     void sortTriangles();
+    void chooseScouts();
     bool above(const Query& query, std::size_t level, std::size_t box) const;
     bool triangleAbove(const Query& query, std::size_t triangle) const;
 
     const Scene& scene_;
     std::vector<std::uint32_t> triangles_;   ///< in Morton order of their centroids
+    std::vector<glm::vec3> scouts_;          ///< some vertices: most points find one of them above
     std::vector<std::vector<Aabb>> levels_;  ///< the lowest around triangles; the highest has at most 16
     double tolerance_ = 0.0;                 ///< metres
 };

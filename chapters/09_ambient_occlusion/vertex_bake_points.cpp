@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "chapters/09_ambient_occlusion/least_squares.h"
@@ -138,10 +139,11 @@ PointFan::PointFan(const Scene& scene, const BakePoints& points, const BakePoint
     : worldFromLocal_(frameAround(glm::normalize(glm::dvec3(point.normal)))) {
     const double lift = 16.0 * 0x1p-23 * reach;
     addSectors(scene, points, point, lift);
-    if (count_ > 0) return;
-    sectors_[0] = {-1.0f, point.normal,
-                   glm::vec3(glm::dvec3(point.position) + lift * glm::dvec3(point.normal))};
-    count_ = 1;
+    if (count_ == 0)
+        sectors_[count_++] = {-1.0f, point.normal,
+                              glm::vec3(glm::dvec3(point.position) + lift * glm::dvec3(point.normal))};
+    starts_.fill(std::numeric_limits<float>::infinity());
+    for (std::size_t i = 0; i < count_; ++i) starts_[i] = sectors_[i].start;
 }
 
 void PointFan::addSectors(const Scene& scene, const BakePoints& points, const BakePoint& point, double lift) {
@@ -195,10 +197,12 @@ void PointFan::addSectors(const Scene& scene, const BakePoints& points, const Ba
 
 std::size_t PointFan::sectorOf(const glm::vec3& local) const {
     const float angle = diamondAngle(local.x, local.y);
-    std::size_t i = count_;
-    while (i > 1 && sectors_[i - 1].start > angle) --i;
-    // Before the first start: still the last sector of the turn.
-    return i == 1 && sectors_[0].start > angle ? count_ - 1 : i - 1;
+    // Counted without a branch, many at a time: which sector it is cannot be guessed.
+    std::size_t begun = 0;
+    for (std::size_t i = 0; i < count_; i += together)
+        for (std::size_t k = 0; k < together; ++k) begun += starts_[i + k] <= angle ? 1u : 0u;
+    // Before the first start it is still the last sector of the turn.
+    return begun == 0 ? count_ - 1 : begun - 1;
 }
 
 }  // namespace penumbra

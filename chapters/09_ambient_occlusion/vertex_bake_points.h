@@ -66,6 +66,7 @@ class PointFan {
     }
 
  private:
+    static constexpr std::size_t together = 8;
     static constexpr std::size_t most = 32;  ///< a fan of more triangles is thinned
     struct Sector {
         float start = 0.0f;  ///< diamond angle, see .cpp
@@ -78,6 +79,7 @@ class PointFan {
 
     glm::mat3 worldFromLocal_;
     std::array<Sector, 2 * most> sectors_;
+    std::array<float, 2 * most> starts_;  ///< of the sectors, and then infinity
     std::size_t count_ = 0;
 };
 

@@ -74,7 +74,7 @@ class RayList {
         }
     }
     std::span<const BundleRay> rays() const { return rays_; }
-    bool even(std::size_t i) const { return even_[i] != 0; }
+    double even(std::size_t i) const { return even_[i]; }  ///< 1 or 0
     std::span<std::uint8_t> blocked() { return blocked_; }
 
  private:
@@ -109,13 +109,13 @@ RaySums tracePoint(const RayBundle& bundle, const PointFan& fan, const AmbientRa
     traced += std::int64_t(list.rays().size());
     RaySums sums;
     for (std::size_t i = 0; i < list.rays().size(); ++i) {
-        const bool blocked = list.blocked()[i] != 0;
-        if (blocked && !smooth) continue;
         const BundleRay& ray = list.rays()[i];
-        const double open = blocked ? openAt(double(bundle.distance(ray, range)), rays.reach) : 1.0;
+        // No branch: half of the rays are blocked, and no processor guesses which.
+        double open = 1.0 - list.blocked()[i];
+        if (smooth && open == 0.0) open = openAt(double(bundle.distance(ray, range)), rays.reach);
         sums.visibility += open;
         sums.bent += open * glm::dvec3(ray.direction);
-        if (list.even(i)) sums.everyOther += open;
+        sums.everyOther += list.even(i) * open;
     }
     return sums;
 }

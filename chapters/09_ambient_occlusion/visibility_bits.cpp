@@ -15,25 +15,21 @@ namespace {
 constexpr std::size_t byteBits = 8;
 constexpr int pointsAtOnce = 1024;
 
-/// One byte of bits as eight factors.
-struct alignas(32) Factors {
-    float of[byteBits] = {};
-};
+/// Eight numbers side by side: one instruction or a few, whatever the processor has.
+using Eight [[gnu::vector_size(32)]] = float;
 
 /// For each byte what its bits multiply by: a table look-up instead of eight shifts and comparisons.
-constexpr std::array<Factors, 256> factorTable() {
-    std::array<Factors, 256> table;
+std::array<Eight, 256> factorTable() {
+    std::array<Eight, 256> table{};
     for (std::size_t byte = 0; byte < 256; ++byte)
-        for (std::size_t bit = 0; bit < byteBits; ++bit) table[byte].of[bit] = float(byte >> bit & 1u);
+        for (std::size_t bit = 0; bit < byteBits; ++bit) table[byte][bit] = float(byte >> bit & 1u);
     return table;
 }
 
-constexpr std::array<Factors, 256> factors = factorTable();
-
-/// Eight directions and what comes from them, side by side.
-struct alignas(32) EightLights {
-    float x[byteBits] = {}, y[byteBits] = {}, z[byteBits] = {};
-    float red[byteBits] = {}, green[byteBits] = {}, blue[byteBits] = {};
+/// Eight directions and what comes from them.
+struct EightLights {
+    Eight x{}, y{}, z{};
+    Eight red{}, green{}, blue{};
 };
 
 std::vector<EightLights> sideBySide(std::span<const glm::vec3> directions,
@@ -51,21 +47,19 @@ std::vector<EightLights> sideBySide(std::span<const glm::vec3> directions,
 }
 
 // [begin:relight]
-/// The irradiance of one point. `words`: its bits.
+/// The irradiance of one point. `words`: its bits; `factors`: of factorTable.
 PENUMBRA_WIDE glm::vec3 irradiance(const std::uint64_t* words, const glm::vec3& normal,
-                                   std::span<const EightLights> lights) {
-    float red[byteBits] = {}, green[byteBits] = {}, blue[byteBits] = {};
+                                   std::span<const EightLights> lights, const Eight* factors) {
+    Eight red{}, green{}, blue{};
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const std::uint64_t byte = words[i / byteBits] >> (byteBits * (i % byteBits)) & 0xff;
         if (byte == 0) continue;
         const EightLights& light = lights[i];
-        for (std::size_t k = 0; k < byteBits; ++k) {
-            const float cosine = normal.x * light.x[k] + normal.y * light.y[k] + normal.z * light.z[k];
-            const float seen = (cosine > 0.0f ? cosine : 0.0f) * factors[byte].of[k];
-            red[k] += seen * light.red[k];
-            green[k] += seen * light.green[k];
-            blue[k] += seen * light.blue[k];
-        }
+        const Eight cosine = normal.x * light.x + normal.y * light.y + normal.z * light.z;
+        const Eight seen = (cosine > 0.0f ? cosine : Eight{}) * factors[byte];
+        red += seen * light.red;
+        green += seen * light.green;
+        blue += seen * light.blue;
     }
     glm::vec3 sum(0.0f);
     for (std::size_t k = 0; k < byteBits; ++k) sum += glm::vec3(red[k], green[k], blue[k]);
@@ -108,12 +102,14 @@ void addSun(std::span<const glm::vec3> directions, const glm::dvec3& toSun, cons
 std::vector<glm::vec3> relight(const VisibilityBits& bits, std::span<const glm::vec3> normals,
                                std::span<const glm::vec3> radiance) {
     const std::vector<EightLights> lights = sideBySide(bits.directions, radiance);
+    static const std::array<Eight, 256> factors = factorTable();
     std::vector<glm::vec3> result(bits.points);
     const int points = int(bits.points);
     parallelRows((points + pointsAtOnce - 1) / pointsAtOnce, [&](int row) {
         for (int i = row * pointsAtOnce; i < std::min(points, (row + 1) * pointsAtOnce); ++i) {
             const auto point = std::size_t(i);
-            result[point] = irradiance(&bits.words[point * bits.wordsPerPoint()], normals[point], lights);
+            result[point] =
+                irradiance(&bits.words[point * bits.wordsPerPoint()], normals[point], lights, factors.data());
         }
     });
     return result;
