@@ -93,6 +93,17 @@ double slopeOf(const Convergence& errors) {
     return sum / squares / std::log(4.0);
 }
 
+/// For whoever wants the figures: --gtest_output=json:FILE
+void record(const std::string& weighting, const Convergence& errors) {
+    for (std::size_t k = 0; k < rayCounts.size(); ++k)
+        testing::Test::RecordProperty(weighting + "_rmse_" + std::to_string(rayCounts[k]),
+                                      std::to_string(errors[k].rmse()));
+    testing::Test::RecordProperty(weighting + "_slope", std::to_string(slopeOf(errors)));
+    testing::Test::RecordProperty(weighting + "_bent_degrees", std::to_string(errors.back().rmsDegrees()));
+    testing::Test::RecordProperty(weighting + "_bias_in_standard_errors",
+                                  std::to_string(errors.back().bias() / errors.back().standardError()));
+}
+
 class AmbientExactness : public testing::TestWithParam<Situation> {};
 
 /// With fixed seeds these pass or fail for good. With new ones a right program would fail the bias of A at
@@ -116,6 +127,7 @@ TEST_P(AmbientExactness, BiasErrorAndBentNormal) {
         const bool cosine = weighting == Weighting::cosine;
         SCOPED_TRACE(cosine ? "cosine" : "uniform");
         const Convergence errors = convergenceOf(situation, weighting);
+        record(cosine ? "cosine" : "uniform", errors);
         expectUnbiased(errors, situation.rounding);
         const auto [steepest, flattest] = cosine ? situation.cosineSlopes : situation.uniformSlopes;
         EXPECT_GE(slopeOf(errors), steepest);

@@ -130,8 +130,8 @@ inline std::vector<Situation> situations() {
                        wall(s, -2.0, 1.5, 30.0);
                    }),
                    ambientOnGullyFloor(2.0, 3.0, 1.5), 2.0 * (1.0 + 2.0) / 30.0 / (2.0 * std::numbers::pi)});
-    all.push_back({"LowWallNearby", onGround([](AmbientScene& s) { wall(s, 0.1, 0.1, 10.0); }),
-                   ambientBesideWall(0.1, 0.1), 2.0 * 0.1 / 10.0 / (2.0 * std::numbers::pi)});
+    all.push_back({"LowWallNearby", onGround([](AmbientScene& s) { wall(s, 0.1, 0.1, 4.0); }),
+                   ambientBesideWall(0.1, 0.1), 2.0 * 0.1 / 4.0 / (2.0 * std::numbers::pi)});
     // Closed 40 away by nothing: the rims are 2 apart.
     all.push_back({"Trench", [](AmbientScene& s) { trench(s, 1.2, 18); },
                    ambientInTrench(1.2, 1.2 * 13.0 / 24.0), 2.0 * 2.0 / 40.0 / (2.0 * std::numbers::pi)});
