@@ -73,7 +73,7 @@ inline void pit(AmbientScene& s, double rim, double angle, std::uint32_t rings =
     s.mesh(points, indices);
 }
 
-/// A trench of unit radius, up to `rim` from its bottom, of 24 planks that are closed off 40 away.
+/// A trench of unit radius, up to `rim` from its bottom, of 24 planks 80 long.
 inline void trench(AmbientScene& s, double rim, int plank) {
     constexpr int planks = 24;
     constexpr double half = 40.0;
@@ -132,7 +132,7 @@ inline std::vector<Situation> situations() {
                    ambientOnGullyFloor(2.0, 3.0, 1.5), 2.0 * (1.0 + 2.0) / 30.0 / (2.0 * std::numbers::pi)});
     all.push_back({"LowWallNearby", onGround([](AmbientScene& s) { wall(s, 0.1, 0.1, 4.0); }),
                    ambientBesideWall(0.1, 0.1), 2.0 * 0.1 / 4.0 / (2.0 * std::numbers::pi)});
-    // Closed 40 away by nothing: the rims are 2 apart.
+    // Its ends are open, 40 away, and its rims at most 2 apart.
     all.push_back({"Trench", [](AmbientScene& s) { trench(s, 1.2, 18); },
                    ambientInTrench(1.2, 1.2 * 13.0 / 24.0), 2.0 * 2.0 / 40.0 / (2.0 * std::numbers::pi)});
     // The rim's polygon of 128 corners is 4e-4 smaller than the circle.
