@@ -37,11 +37,15 @@ const std::vector<std::string>& directionPatternNames() {
 
 // [begin:directions]
 std::vector<glm::dvec3> skyDirections(int count, const std::string& pattern, std::uint32_t seed) {
-    if (pattern == "owen-sobol") return owenSobolSphere(count, seed);
-    if (pattern == "random") return randomSphere(count, seed);
-    if (pattern != "fibonacci") throw UsageError("--directions " + pattern + ": no such pattern");
     std::vector<glm::dvec3> directions;
-    for (int i = 0; i < count; ++i) directions.push_back(fibonacciSphere(i, count));
+    if (pattern == "random") directions = randomSphere(count, seed);
+    if (pattern == "owen-sobol") directions = owenSobolSphere(count, seed);
+    if (pattern == "fibonacci")
+        for (int i = 0; i < count; ++i) directions.push_back(fibonacciSphere(i, count));
+    if (directions.empty()) throw UsageError("--directions " + pattern + ": no such pattern");
+    // The patterns are best along their axis. Most scenes stand on a ground, whose horizon is the longest
+    // edge in anybody's sky: the axis points up, and the horizon falls between two rows.
+    for (glm::dvec3& l : directions) l = {l.y, l.z, l.x};
     return directions;
 }
 // [end:directions]
