@@ -40,7 +40,7 @@ MUTATIONS = {
     "HalfATexelOff": (SKY, "sky", "*RightWayRound*", [("uv.x * picture.width - 0.5", "uv.x * picture.width")]),
     "NotANumberShines": (SKY, "sky", "*NoSky*", [("value >= 0.0f && std::isfinite(value)", "!(value < 0.0f)")]),
     # where no ray is needed
-    "BoxesForTriangles": (PLANES, "sky", "*InAnyDirection*", [("if (above(corner, foot", "if (true || above(corner, foot")]),
+    "BoxesForTriangles": (PLANES, "sky", "*NotTheirBoxes*", [("if (above(corner, foot", "if (true || above(corner, foot")]),
     "OneCornerOfABox": (PLANES, "sky", "*RisesAbove*", [("n.y > 0.0 ? box.upper.y : box.lower.y", "box.lower.y")]),
     "RangesFromTheMiddle": (PLANES, "sky", "*RisesAbove*", [("p - glm::clamp(p, box.lower, box.upper)", "p - box.centre()")]),
     "ClustersForTriangles": (PLANES, "sky", "*RisesAbove*", [("if (squaredDistance(boxes_[t], from.position) > range * range) continue;", "")]),

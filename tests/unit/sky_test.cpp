@@ -163,6 +163,10 @@ TEST(OpenPlanes, OnlyWhatRisesAboveThePlaneWithinRangeCounts) {
     back.fromBehind = true;
     back.geometricNormal = -back.geometricNormal;
     EXPECT_FALSE(planes.nothingAbove(back, infinite));
+    Hit inside = top;  // of the box, after its top was asked about
+    inside.fromBehind = true;
+    inside.geometricNormal = -inside.geometricNormal;
+    EXPECT_FALSE(planes.nothingAbove(inside, infinite));
     EXPECT_TRUE(planes.nothingAbove(below(tracer, -0.9, -0.9), 0.5));
 
     // Of one cluster it is its triangles that count: a quad far up and one that is far away.
@@ -200,6 +204,13 @@ TEST(OpenPlanes, APlaneOfManyTrianglesInAnyDirectionIsOpen) {
             EXPECT_EQ(open, asked);
         }
     }
+}
+
+// The box of a tilted plane rises above it, and the plane does not. These corners are exact in float.
+TEST(OpenPlanes, ItIsTrianglesThatCountAndNotTheirBoxes) {
+    const Scene scene = SmallScene().quad({0, 0, 0}, {1, 1, 0}, {0, 0, -1}).take();
+    const RayTracer tracer(scene);
+    EXPECT_TRUE(OpenPlanes(scene).nothingAbove(below(tracer, 0.3, -0.6), infinite));
 }
 
 // The skip claims to be exact: the same to the bit, wherever it is taken.
