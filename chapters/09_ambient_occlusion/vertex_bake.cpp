@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "chapters/09_ambient_occlusion/least_squares.h"
@@ -47,7 +48,8 @@ class Bake {
     /// traced, and one that is blocked makes it a point like any other.
     bool seesAll(std::size_t i, int count, std::int64_t& traced);
     void firstRays();
-    std::vector<float> askNeighbours(const SharedRays& sharing);
+    void secondRays(std::span<const float> variances, float threshold);
+    void askNeighbours(const SharedRays& sharing, float threshold, std::vector<float>& variances);
     void refine(float threshold);
     AmbientValue result(std::size_t i) const;
 
@@ -57,11 +59,12 @@ class Bake {
     std::uint32_t seedOf(std::size_t i, std::uint32_t round) const {
         return hashSeed(std::uint32_t(i), settings_.seed, round);
     }
-    RaySums trace(std::size_t i, int count, std::uint32_t round, std::int64_t& traced) const {
+    RaySums trace(std::size_t i, int count, std::uint32_t round, std::int64_t& traced,
+                  LatticePart part = LatticePart::whole) const {
         const PointFan fan(scene_, points_, points_.points[i], reach_);
         AmbientRays rays = settings_.rays;
         rays.count = count;
-        return tracePoint(bundle_, fan, rays, seedOf(i, round), traced);
+        return tracePoint(bundle_, fan, rays, seedOf(i, round), traced, part);
     }
 
     const Scene& scene_;
@@ -74,6 +77,7 @@ class Bake {
     std::vector<OwnEstimate> own_;
     std::vector<NeighbourEstimate> others_;
     int firstCount_ = 0;
+    std::vector<int> counts_;  ///< rays of each point so far
     std::atomic<std::int64_t> rays_{0};
     std::int64_t bytes_ = 0;
 };
@@ -125,52 +129,62 @@ OwnEstimate estimateOf(const AmbientValue& value, double halves) {
     return {glm::vec4(value.bent, value.visibility), float(halves)};
 }
 
+/// The even half of a lattice of twice as many rays.
 void Bake::firstRays() {
-    // A third of the rays that a point would need alone is about what pays most: with fewer, the neighbours'
-    // differences cannot be told from noise, and points are refined in vain.
-    firstCount_ = std::max(8, settings_.rays.count / 6 * 2);
+    // A quarter of the rays that a point would need alone is about what pays most: with fewer, the
+    // neighbours' differences cannot be told from noise, and points are refined in vain.
+    firstCount_ = std::max(8, settings_.rays.count / 8 * 2);
     own_.resize(points_.points.size());
-    forEachPoint(0.02, 0.5, [&](std::size_t i, std::int64_t& traced) {
+    counts_.assign(points_.points.size(), firstCount_);
+    forEachPoint(0.02, 0.4, [&](std::size_t i, std::int64_t& traced) {
         if (seesAll(i, firstCount_, traced)) {
             own_[i] =
                 estimateOf(wholeSky(glm::dvec3(points_.points[i].normal), settings_.rays.weighting), 0.0);
             return;
         }
-        const RaySums sums = trace(i, firstCount_, 0, traced);
+        const RaySums sums = trace(i, firstCount_, 0, traced, LatticePart::even);
         const double difference = (2.0 * sums.everyOther - sums.visibility) / firstCount_;
         own_[i] = estimateOf(sums.mean(firstCount_), difference * difference);
     });
 }
 
-/// Variance of each point's visibility with its neighbours' help.
-std::vector<float> Bake::askNeighbours(const SharedRays& sharing) {
-    others_.resize(points_.points.size());
-    std::vector<float> variances(points_.points.size(), 0.0f);
-    forEachPoint(0.5, 0.6, [&](std::size_t i, std::int64_t&) {
-        if (open_[i]) return;
+/// The odd half, where the variance is above the threshold: neighbours profit too.
+void Bake::secondRays(std::span<const float> variances, float threshold) {
+    forEachPoint(0.45, 0.6, [&](std::size_t i, std::int64_t& traced) {
+        if (open_[i] || variances[i] <= threshold) return;
+        const AmbientValue odd = trace(i, firstCount_, 0, traced, LatticePart::odd).mean(firstCount_);
+        const glm::vec4 difference = estimateOf(odd, 0.0).value - own_[i].value;
+        own_[i] = {own_[i].value + 0.5f * difference, 0.25f * difference.w * difference.w};
+        counts_[i] = 2 * firstCount_;
+    });
+}
+
+/// Replaces the variance of each point's visibility, if it is above `threshold`, by that with its neighbours'
+/// help.
+void Bake::askNeighbours(const SharedRays& sharing, float threshold, std::vector<float>& variances) {
+    forEachPoint(0.4, 0.45, [&](std::size_t i, std::int64_t&) {
+        if (open_[i] || variances[i] <= threshold) return;
         const NeighbourEstimate& other = others_[i] = sharing.at(std::uint32_t(i));
         glm::vec4 ignored(0.0f);
         variances[i] = combine(ignored, other.noise, ignored, other.variance);
     });
-    return variances;
 }
 
 /// More rays where the variance is above `threshold`, as many as bring it down to it; and everywhere the mean
 /// of what is known.
 void Bake::refine(float threshold) {
-    const auto variances = [&](std::size_t i) { return std::pair(others_[i].noise, others_[i].variance); };
     forEachPoint(0.6, 1.0, [&](std::size_t i, std::int64_t& traced) {
         if (open_[i]) return;
-        const auto [noise, other] = variances(i);
+        const float other = others_[i].variance, noise = others_[i].noise;
         glm::vec4& value = own_[i].value;
         float variance = noise;
         // Precisions add: threshold^-1 = noise^-1 + other^-1 + that of the new rays.
         const double missing = 1.0 / threshold - 1.0 / noise - 1.0 / other;
         if (missing > 0.0) {
             // The error of n rays goes as n^(-3/4).
-            const double wanted = firstCount_ * std::pow(noise * missing, 2.0 / 3.0);
+            const double wanted = counts_[i] * std::pow(noise * missing, 2.0 / 3.0);
             const int count = int(std::clamp(wanted, 8.0, 1.5 * settings_.rays.count));
-            const float added = noise * float(std::pow(double(firstCount_) / count, 1.5));
+            const float added = noise * float(std::pow(double(counts_[i]) / count, 1.5));
             variance = combine(value, variance, estimateOf(trace(i, count, 1, traced).mean(count), 0.0).value,
                                added);
         }
@@ -186,18 +200,31 @@ AmbientValue Bake::result(std::size_t i) const {
 
 std::vector<AmbientValue> Bake::shared(const PointNeighbours& neighbours) {
     firstRays();
-    const SharedRays sharing(points_, neighbours, own_);
-    std::vector<float> variances = askNeighbours(sharing);
-    // As good, in the mean of squares, as rays.count rays at every point.
-    const double fewer = std::pow(double(firstCount_) / settings_.rays.count, 1.5);
+    others_.resize(points_.points.size());
+    std::vector<float> variances(points_.points.size(), 1.0f);
     double wanted = 0.0;
-    for (std::size_t i = 0; i < variances.size(); ++i)
-        if (!open_[i]) wanted += fewer * double(others_[i].noise);
-    // A little better, because an edge is narrow, and the neighbours' variance knows only of the mean.
+    {
+        const SharedRays sharing(points_, neighbours, own_);
+        askNeighbours(sharing, 0.0f, variances);
+        bytes_ = std::int64_t(
+            own_.size() * (sizeof(OwnEstimate) + sizeof(NeighbourEstimate) + sizeof(float) + sizeof(int)) +
+            neighbours.bytes() + sharing.bytes());
+    }
+    // As good, in the mean of squares, as rays.count rays at every point. A little better, because an edge is
+    // narrow, and the neighbours' variance knows only of the mean.
     constexpr double forEdges = 0.8;
-    wanted *= forEdges / double(std::max<std::size_t>(1, variances.size()));
-    bytes_ = std::int64_t(own_.size() * (sizeof(OwnEstimate) + sizeof(NeighbourEstimate) + sizeof(float)) +
-                          neighbours.bytes() + sharing.bytes());
+    const double fewer = forEdges * std::pow(double(firstCount_) / settings_.rays.count, 1.5);
+    for (std::size_t i = 0; i < variances.size(); ++i)
+        if (!open_[i])
+            wanted += fewer * double(others_[i].noise);
+        else
+            variances[i] = 0.0f;
+    wanted /= double(std::max<std::size_t>(1, variances.size()));
+    const float threshold = thresholdOfMean(variances, wanted);
+    if (std::ranges::any_of(variances, [&](float v) { return v > threshold; })) {
+        secondRays(variances, threshold);
+        askNeighbours(SharedRays(points_, neighbours, own_), threshold, variances);
+    }
     refine(thresholdOfMean(std::move(variances), wanted));
     std::vector<AmbientValue> values(own_.size());
     for (std::size_t i = 0; i < values.size(); ++i)

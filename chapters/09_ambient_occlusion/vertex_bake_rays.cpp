@@ -1,9 +1,11 @@
 #include "chapters/09_ambient_occlusion/vertex_bake_rays.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/math/sampling.h"
@@ -16,106 +18,95 @@ double unitHash(std::uint32_t seed, std::uint32_t which) {
     return hashSeed(seed, which) * 0x1p-32;
 }
 
-/// The directions of the lattice one after the other, in the point's local frame: (i + 1/2) / count, shifted,
-/// is the square of the distance from the disk's centre (or the height on the hemisphere), and the angle
-/// grows by the golden section of a turn each time, which needs a product instead of a sine and a cosine.
-class Lattice {
- public:
-    Lattice(const AmbientRays& rays, std::uint32_t seed)
-        : cosine_(rays.weighting == Weighting::cosine),
-          step_(1.0 / rays.count),
-          x_(unitHash(seed, 1) + 0.5 * step_) {
-        const double angle = 2.0 * std::numbers::pi * unitHash(seed, 2);
-        c_ = std::cos(angle), s_ = std::sin(angle);
-    }
-
-    glm::vec3 next() {
-        x_ -= x_ >= 1.0 ? 1.0 : 0.0;
-        const auto x = float(x_);
-        const float z = cosine_ ? std::sqrt(1.0f - x) : 1.0f - x;
-        const float r = std::sqrt(cosine_ ? x : 1.0f - z * z);
-        const glm::vec3 direction(r * float(c_), r * float(s_), z);
-        x_ += step_;
-        const double turned = c_ * turnCos - s_ * turnSin;
-        s_ = s_ * turnCos + c_ * turnSin;
-        c_ = turned;
-        return direction;
-    }
-
- private:
-    // Of 2 pi (golden section - 1).
-    static constexpr double turnCos = -0.73736887807831963, turnSin = -0.67549029426152396;
-    bool cosine_;
-    double step_, x_, c_ = 1.0, s_ = 0.0;
+/// One direction of the lattice, before it is shifted and turned.
+struct Spoke {
+    float x = 0.0f;  ///< square of the distance from the disk's centre, or 1 - the height on the hemisphere
+    float cosine = 1.0f, sine = 0.0f;  ///< of the angle around the normal
+    float even = 0.0f;                 ///< 1: number 0, 2, 4 ... of the lattice
 };
 
-/// Rays that start above the surface, those that go out in similar directions one after the other: Embree
-/// traces them side by side, and they stay together on their way.
-class RayList {
- public:
-    void clear() { count_ = 0; }
-    void add(const BundleRay& ray, const glm::vec3& local, int index) {
-        if (unsorted_.size() == count_) unsorted_.emplace_back();
-        const int sector = (local.y < 0.0f ? 4 : 0) + (local.x < 0.0f ? 2 : 0) +
-                           (std::abs(local.x) < std::abs(local.y) ? 1 : 0);
-        // Around the circle: 0 1 3 2 6 7 5 4.
-        constexpr std::array<std::uint8_t, sectors> order = {0, 1, 3, 2, 7, 6, 4, 5};
-        unsorted_[count_++] = {ray, order[std::size_t(sector)], index % 2 == 0};
+/// The angle of one after the other grows by the golden section of a turn, and x by 1 / count. Sorted by the
+/// angle: Embree traces neighbours side by side, and those that go out over the same side of the point stay
+/// together on their way.
+std::vector<Spoke> latticeSpokes(int count, LatticePart part) {
+    constexpr double golden = 0.61803398874989485;
+    const double first = part == LatticePart::odd ? 0.5 : 0.0;
+    const double offset = part == LatticePart::whole ? 0.5 : part == LatticePart::even ? 0.25 : 0.75;
+    std::vector<std::pair<double, Spoke>> sorted;
+    for (int i = 0; i < count; ++i) {
+        const double turns = (i + first) * golden, angle = 2.0 * std::numbers::pi * turns;
+        sorted.push_back({turns - std::floor(turns),
+                          {float((i + offset) / count), float(std::cos(angle)), float(std::sin(angle)),
+                           i % 2 == 0 ? 1.0f : 0.0f}});
     }
-    void sort() {
-        std::array<std::size_t, sectors + 1> first{};
-        for (std::size_t i = 0; i < count_; ++i) ++first[unsorted_[i].sector + 1u];
-        for (std::size_t s = 1; s < sectors; ++s) first[s] += first[s - 1];
-        rays_.resize(count_), even_.resize(count_), blocked_.resize(count_);
-        for (std::size_t i = 0; i < count_; ++i) {
-            const std::size_t place = first[unsorted_[i].sector]++;
-            rays_[place] = unsorted_[i].ray;
-            even_[place] = unsorted_[i].even;
-        }
-    }
-    std::span<const BundleRay> rays() const { return rays_; }
-    double even(std::size_t i) const { return even_[i]; }  ///< 1 or 0
-    std::span<std::uint8_t> blocked() { return blocked_; }
+    std::ranges::sort(sorted, {}, [](const auto& entry) { return entry.first; });
+    std::vector<Spoke> spokes;
+    for (const auto& [turns, spoke] : sorted) spokes.push_back(spoke);
+    return spokes;
+}
 
- private:
-    static constexpr std::size_t sectors = 8;
-    struct Unsorted {
-        BundleRay ray;
-        std::uint8_t sector = 0;
-        bool even = false;
-    };
-    std::vector<Unsorted> unsorted_;
-    std::size_t count_ = 0;
-    std::vector<BundleRay> rays_;
-    std::vector<std::uint8_t> even_, blocked_;
+/// The same, made once for each thread.
+std::span<const Spoke> spokesOf(int count, LatticePart part) {
+    thread_local std::map<std::pair<int, LatticePart>, std::vector<Spoke>> made;
+    std::vector<Spoke>& spokes = made[{count, part}];
+    if (spokes.empty()) spokes = latticeSpokes(count, part);
+    return spokes;
+}
+
+/// The rays that start above the surface; `even` is that of their spokes.
+struct RayList {
+    std::vector<BundleRay> rays;
+    std::vector<float> even;
+    std::vector<std::uint8_t> blocked;
+    std::size_t count = 0;
+
+    void begin(std::size_t most) {
+        if (rays.size() < most) rays.resize(most), even.resize(most), blocked.resize(most);
+        count = 0;
+    }
 };
+
+void castRays(const PointFan& fan, const AmbientRays& asked, std::uint32_t seed, LatticePart part,
+              RayList& list) {
+    const auto shift = float(unitHash(seed, 1)),
+               turn = 2.0f * std::numbers::pi_v<float> * float(unitHash(seed, 2));
+    const float cosine = std::cos(turn), sine = std::sin(turn);
+    const bool byCosine = asked.weighting == Weighting::cosine;
+    list.begin(std::size_t(asked.count));
+    for (const Spoke& spoke : spokesOf(asked.count, part)) {
+        float x = spoke.x + shift;
+        x = x >= 1.0f ? x - 1.0f : x;
+        const float z = byCosine ? std::sqrt(1.0f - x) : 1.0f - x;
+        const float r = std::sqrt(byCosine ? x : 1.0f - z * z);
+        const glm::vec3 local(r * (cosine * spoke.cosine - sine * spoke.sine),
+                              r * (sine * spoke.cosine + cosine * spoke.sine), z);
+        const glm::vec3 world = fan.worldFromLocal() * local;
+        const glm::vec3* origin = fan.origin(local, world);
+        if (!origin) continue;
+        list.rays[list.count] = {*origin, world};
+        list.even[list.count++] = spoke.even;
+    }
+}
 
 }  // namespace
 
 RaySums tracePoint(const RayBundle& bundle, const PointFan& fan, const AmbientRays& rays, std::uint32_t seed,
-                   std::int64_t& traced) {
+                   std::int64_t& traced, LatticePart part) {
     thread_local RayList list;
-    list.clear();
-    Lattice lattice(rays, seed);
-    for (int i = 0; i < rays.count; ++i) {
-        const glm::vec3 local = lattice.next();
-        const glm::vec3 world = fan.worldFromLocal() * local;
-        if (const glm::vec3* origin = fan.origin(local, world)) list.add({*origin, world}, local, i);
-    }
-    list.sort();
+    castRays(fan, rays, seed, part, list);
     const auto range = float(rays.reach.range);
     const bool smooth = rays.reach.smooth && std::isfinite(range);
-    bundle.blocked(list.rays(), range, list.blocked());
-    traced += std::int64_t(list.rays().size());
+    bundle.blocked({list.rays.data(), list.count}, range, list.blocked);
+    traced += std::int64_t(list.count);
     RaySums sums;
-    for (std::size_t i = 0; i < list.rays().size(); ++i) {
-        const BundleRay& ray = list.rays()[i];
+    for (std::size_t i = 0; i < list.count; ++i) {
+        const BundleRay& ray = list.rays[i];
         // No branch: half of the rays are blocked, and no processor guesses which.
-        double open = 1.0 - list.blocked()[i];
+        double open = 1.0 - list.blocked[i];
         if (smooth && open == 0.0) open = openAt(double(bundle.distance(ray, range)), rays.reach);
         sums.visibility += open;
         sums.bent += open * glm::dvec3(ray.direction);
-        sums.everyOther += list.even(i) * open;
+        sums.everyOther += double(list.even[i]) * open;
     }
     return sums;
 }
