@@ -36,7 +36,7 @@ constexpr float explained = 1.0f;
 /// Coefficients of the function: two along the surface, two with the normal, one with the depth, three of
 /// second degree, and the constant last: eliminated in this order, the constant is what remains. Each is
 /// believed to be of the size `believed`, for a neighbourhood of radius 1 and a change of the normal by 1.
-constexpr std::size_t terms = 9, channels = 4, width = 16;
+constexpr std::size_t terms = 9, width = 16;
 constexpr std::array<float, terms> believed = {0.15f, 0.15f, 0.5f, 0.5f, 0.5f, 0.1f, 0.1f, 0.1f, 1e3f};
 
 /// The terms of a neighbour and then its differences of value to the point; padded for the compiler, which

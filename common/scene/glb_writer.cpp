@@ -47,7 +47,7 @@ struct Glb {
     int attribute(const std::vector<T>& values, const char* type) {
         return accessor(values, vertexTarget, floatType, type);
     }
-    void node(Json node) { root["scenes"][0]["nodes"].push_back(append("nodes", node)); }
+    void node(const Json& node) { root["scenes"][0]["nodes"].push_back(append("nodes", node)); }
 };
 
 Json materialJson(const Material& material) {

@@ -289,12 +289,15 @@ double floorError(const std::vector<AmbientValue>& coarse, int cells, const std:
             const double u = double(x) * cells / fineCells, v = double(z) * cells / fineCells;
             const int i = std::min(int(u), cells - 1), k = std::min(int(v), cells - 1);
             const double a = u - i, b = v - k;
-            const auto at = [&](int p, int q) { return coarse[std::size_t(q * (cells + 1) + p)].visibility; };
+            const auto at = [&](int p, int q) {
+                return coarse[std::size_t(q) * std::size_t(cells + 1) + std::size_t(p)].visibility;
+            };
             const double y = a + b <= 1.0
                                  ? at(i, k) + a * (at(i + 1, k) - at(i, k)) + b * (at(i, k + 1) - at(i, k))
                                  : at(i + 1, k + 1) + (1 - a) * (at(i, k + 1) - at(i + 1, k + 1)) +
                                        (1 - b) * (at(i + 1, k) - at(i + 1, k + 1));
-            sum += std::pow(y - fine[std::size_t(z * (fineCells + 1) + x)].visibility, 2.0);
+            sum += std::pow(y - fine[std::size_t(z) * std::size_t(fineCells + 1) + std::size_t(x)].visibility,
+                            2.0);
         }
     return sum / ((fineCells + 1) * (fineCells + 1));
 }
