@@ -90,9 +90,7 @@ void BakedAmbient::bake(const Frame& frame, const AmbientOptions& options) {
         values_ = std::move(baked.values);
         work_ = baked.work;
     }
-    if (options.save == "none") return;
-    if (perTriangle_) throw UsageError("--save: values of triangles are no vertex attribute");
-    saveAmbient(scene_, values_, options.save);
+    if (options.save != "none") saveAmbient(scene_, values_, options.save);
 }
 
 // [begin:bits]

@@ -18,6 +18,10 @@ class PixelRays {
 
     /// Traces, unless nothing has changed since the latest frame. Counts primary_rays, rays_traced,
     /// rays_saved (towards what nothing can be in the way of) and pixels_receiving.
+    ///
+    /// In a window that would take seconds for each step of the mouse. There it traces one pixel of each
+    /// block of 16 x 16 at first, and refines for a tenth of a second in every further frame; while anything
+    /// is left it counts rows_left, and the window goes on drawing. The last picture is the same.
     void update(const Frame& frame, const AmbientOptions& options);
 
     /// One texel for each pixel. Bent vector and ambient visibility; radiance that arrives (E / pi), and how
@@ -34,9 +38,14 @@ class PixelRays {
         std::int64_t traced = 0, saved = 0, receiving = 0;
     };
 
-    void findHits(const Frame& frame);
+    void start(const Frame& frame, const std::string& key);
+    void refine(const Frame& frame, const AmbientOptions& options);
+    void traceRows(const Frame& frame, const AmbientOptions& options, int count);
     void traceRow(const Frame& frame, const AmbientOptions& options, const SkyLight& light, int y,
                   Counts& counts);
+    void tracePixel(const Frame& frame, const SkyLight& light, AmbientRays rays, const glm::ivec2& pixel,
+                    Counts& counts);
+    int rows() const { return (size_.y + step_ - 1) / step_; }
     void upload(const glm::ivec2& size);
     /// Of pixel (x, y), y down, in the arrays below, whose rows run up as textures do.
     std::size_t texel(int x, int y) const { return std::size_t(size_.y - 1 - y) * size_.x + x; }
@@ -44,11 +53,13 @@ class PixelRays {
     RayTracer tracer_;
     OpenPlanes planes_;
     glm::ivec2 size_{0};
-    std::optional<Camera> camera_;  ///< of the hits
+    std::optional<Camera> camera_;
     std::string key_;
     std::vector<Hit> hits_;
     std::vector<float> valueTexels_, lightTexels_;  ///< RGBA
     Counts counts_;
+    int step_ = 0;  ///< side of the blocks that are being traced; 0: all is done
+    int row_ = 0;   ///< the next row of them
     std::optional<TexelTexture> values_, light_;
 };
 

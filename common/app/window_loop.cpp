@@ -82,7 +82,14 @@ class WindowLoop {
 
  private:
     bool isVisible() const { return framebufferSize(window_) != glm::ivec2(0); }  // else minimised
-    bool needsPicture() const { return changed_ || divisor_ > 1 || framebufferSize(window_) != drawnSize_; }
+    bool needsPicture() const {
+        return changed_ || divisor_ > 1 || isUnfinished() || framebufferSize(window_) != drawnSize_;
+    }
+    /// A chapter that refines its picture from frame to frame counts the rows it has left.
+    bool isUnfinished() const {
+        const auto left = state_.work.find("rows_left");
+        return frameError_.empty() && left != state_.work.end() && left->second > 0;
+    }
 
     void frame() {
         imgui_.begin();

@@ -407,6 +407,8 @@ TEST(Chapter09Skips, WhatDidNotChangeIsNotTracedAgain) {
 TEST(Chapter09, WhatAMethodCannotDoIsRefused) {
     const Settings wrong[] = {{{"sun", "on"}, {"method", "vertices"}},
                               {{"method", "bits"}, {"samples", "32"}},
+                              {{"method", "triangles"}, {"save", "/tmp/never.glb"}},
+                              {{"method", "rays"}, {"save", "/tmp/never.glb"}},
                               {{"method", "stored"}},
                               {{"sky", "no/such.exr"}}};
     for (const Settings& settings : wrong) {
