@@ -107,7 +107,6 @@ AccumulatedOcclusion::~AccumulatedOcclusion() = default;
 AccumulatedOcclusion::AccumulatedOcclusion(AccumulatedOcclusion&&) noexcept = default;
 AccumulatedOcclusion& AccumulatedOcclusion::operator=(AccumulatedOcclusion&&) noexcept = default;
 
-// [begin:update]
 AmbientTextures AccumulatedOcclusion::update(const Frame& frame, const OcclusionOptions& options,
                                              const Sky& sky) {
     State& state = *state_;
@@ -136,7 +135,6 @@ AmbientTextures AccumulatedOcclusion::update(const Frame& frame, const Occlusion
     const TexturePair& resolved = state.sums.resolved();
     return {resolved.first(), resolved.second(), resolved.size(), state.perVertex};
 }
-// [end:update]
 
 std::vector<AmbientValue> AccumulatedOcclusion::vertexValues(const Scene& scene) const {
     const std::vector<glm::vec4> texels = state_->sums.resolved().readFirst();

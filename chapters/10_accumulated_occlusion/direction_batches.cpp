@@ -74,7 +74,6 @@ ReceiverHorizons::ReceiverHorizons(std::span<const glm::vec4> normals) {
                  [](const Box& box) { return box.lower.x <= box.upper.x; });
 }
 
-// [begin:above]
 bool ReceiverHorizons::above(const glm::dvec3& toSky) const {
     return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
         // The corner of the box that looks most towards it.
@@ -84,6 +83,5 @@ bool ReceiverHorizons::above(const glm::dvec3& toSky) const {
         return glm::dot(n, toSky) > horizonCosine - rounding;
     });
 }
-// [end:above]
 
 }  // namespace penumbra

@@ -49,7 +49,6 @@ void Receivers::resize(const glm::ivec2& size) {
     requireCompleteFramebuffer("textures of positions and normals");
 }
 
-// [begin:pixels]
 void Receivers::drawPixels(const Frame& frame) {
     const PassScope scope(frame.passTimer, "receivers");
     resize(frame.size);
@@ -64,9 +63,7 @@ void Receivers::drawPixels(const Frame& frame) {
                  glm::mat4(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y)));
     drawPicture(surface_, frame);
 }
-// [end:pixels]
 
-// [begin:vertices]
 void Receivers::uploadVertices(const Scene& scene) {
     const std::size_t count = scene.positions.size();
     const int width = std::max(1, int(std::ceil(std::sqrt(double(count)))));
@@ -86,7 +83,6 @@ void Receivers::uploadVertices(const Scene& scene) {
     normals_->upload(normals);
     facets_->upload(facets);
 }
-// [end:vertices]
 
 std::vector<glm::vec4> Receivers::readNormals() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());

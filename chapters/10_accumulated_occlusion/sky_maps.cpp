@@ -47,7 +47,6 @@ SkyBias skyBias(DepthFormat format, std::span<const LightFrustum> frusta, const 
     return bias;
 }
 
-// [begin:layers]
 SkyMaps::SkyMaps(int mapSize, DepthFormat format, int layers)
     : mapSize_(mapSize), format_(format), framebuffers_(std::size_t(layers)) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.id());
@@ -64,7 +63,6 @@ SkyMaps::SkyMaps(int mapSize, DepthFormat format, int layers)
         requireCompleteFramebuffer("a layer of shadow maps");
     }
 }
-// [end:layers]
 
 // [begin:depth-passes]
 void SkyMaps::render(Program& program, const Frame& frame, std::span<const LightFrustum> frusta) {
