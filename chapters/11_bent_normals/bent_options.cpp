@@ -41,9 +41,12 @@ const AmbientOptions& BentOptions::ambient() const {
     ambient_.method = source == "vertices" ? "vertices" : "rays";
     ambient_.samples = samples;
     ambient_.weighting = weighting;
-    ambient_.sky = sky;
-    ambient_.truthRays = truthRays;
     return ambient_;
+}
+
+const AmbientOptions& BentOptions::shining() const {
+    shining_.sky = sky;
+    return shining_;
 }
 
 const OcclusionOptions& BentOptions::occlusion() const {

@@ -20,16 +20,19 @@ struct BentOptions {
     void requireSense() const;
     /// Is the sky taken as a linear function of the direction?
     bool isLinear() const { return irradiance == "linear" || irradiance == "normalised"; }
-    /// The same in the words of chapters 09 and 10. The references last as long as this does.
+    /// What A and B depend on, in the words of chapters 09 and 10: the sky is not part of it. The references
+    /// last as long as this does.
     const AmbientOptions& ambient() const;
     const OcclusionOptions& occlusion() const;
+    /// The sky, in the words of chapter 09.
+    const AmbientOptions& shining() const;
     /// The sky, as bright as in chapter 09.
-    const Sky& skyOf(const Scene& scene) const { return ambient().light(scene).sky; }
+    const Sky& skyOf(const Scene& scene) const { return shining().light(scene).sky; }
     /// Throws UsageError when the scene has no such lamp.
     const Light& lamp(const Scene& scene) const;
 
  private:
-    mutable AmbientOptions ambient_;  ///< remembers the sky it has read
+    mutable AmbientOptions ambient_, shining_;  ///< the second remembers the sky it has read
     mutable OcclusionOptions occlusion_;
 };
 

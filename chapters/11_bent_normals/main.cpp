@@ -40,7 +40,7 @@ class BentNormals : public Chapter {
 
         // Pass 3: the picture. Each pixel looks the irradiance up along B, and takes A of it.
         const PassScope scope(frame.passTimer, "picture");
-        backdrop_->draw(frame, options_.ambient(), frame.view == "color" && options_.combine == "principled");
+        backdrop_->draw(frame, options_.shining(), frame.view == "color" && options_.combine == "principled");
         glEnable(GL_DEPTH_TEST);
         seen_->draw(surfaces(frame), frame, options_);
         // [end:passes]

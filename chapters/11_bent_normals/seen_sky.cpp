@@ -5,6 +5,7 @@
 namespace penumbra {
 
 // [begin:sources]
+// Under whatever sky: when another one shines, no ray is traced and no map drawn.
 void SeenSky::update(const Frame& frame, const BentOptions& options) {
     if (options.source == "vertices") {
         if (!baked_) baked_.emplace(scene_);
@@ -12,7 +13,8 @@ void SeenSky::update(const Frame& frame, const BentOptions& options) {
     }
     if (options.source == "maps") {
         if (!maps_) maps_.emplace();
-        texels_ = maps_->update(frame, options.occlusion(), options.skyOf(scene_)).ambient;
+        const Sky any = Sky::uniform(glm::dvec3(1.0));
+        texels_ = maps_->update(frame, options.occlusion(), any).ambient;
         return;
     }
     if (!pixels_) pixels_.emplace(scene_);
