@@ -77,6 +77,12 @@ bool Horizon::anythingAbove(const glm::dvec3& position, const glm::dvec3& normal
     return false;
 }
 
+std::size_t Horizon::bytes() const {
+    std::size_t boxes = 0;
+    for (const std::vector<Aabb>& level : levels_) boxes += level.size();
+    return boxes * sizeof(Aabb) + triangles_.size() * sizeof(triangles_[0]);
+}
+
 bool Horizon::above(const Query& query, std::size_t level, std::size_t box) const {
     const Aabb& bounds = levels_[level][box];
     if (query.highest(bounds) <= tolerance_ || !query.withinRange(bounds)) return false;

@@ -21,6 +21,8 @@ class Horizon {
     /// above (PointFan), and pass over what is lower.
     bool anythingAbove(const glm::dvec3& position, const glm::dvec3& normal, double range) const;
 
+    std::size_t bytes() const;
+
  private:
     struct Query;
     void sortTriangles();

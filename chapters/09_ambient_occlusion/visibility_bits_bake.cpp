@@ -121,7 +121,7 @@ BakedBits BitsBake::result() const {
     baked.work.merged = baked.work.points - std::int64_t(points_.points.size());
     baked.work.skipped = skipped_;
     baked.work.rays = rays_;
-    baked.work.bytes = std::int64_t(points_.bytes() + bits_.bytes() + baked.bits.bytes());
+    baked.work.bytes = std::int64_t(points_.bytes() + horizon_.bytes() + bits_.bytes() + baked.bits.bytes());
     return baked;
 }
 
