@@ -14,10 +14,6 @@ namespace {
 
 constexpr int coarsest = 16;  ///< pixels; a power of 4
 
-bool inWindow(const Frame& frame) {
-    return frame.context && frame.context->window() && frame.view != "profile";
-}
-
 }  // namespace
 
 glm::dvec3 sunlight(const RayTracer& tracer, const Light& sun, const Hit& hit, const glm::dvec3& normal) {
@@ -100,7 +96,7 @@ void PixelRays::traceRows(const Frame& frame, const AmbientOptions& options, int
     row_ += count;
 }
 
-void PixelRays::start(const Frame& frame, const std::string& key) {
+void PixelRays::start(const Frame& frame, const std::string& key, bool inParts) {
     key_ = key;
     size_ = frame.size;
     camera_ = frame.camera;
@@ -110,12 +106,11 @@ void PixelRays::start(const Frame& frame, const std::string& key) {
     lightTexels_.assign(4 * pixels, 0.0f);
     counts_ = {};
     row_ = 0;
-    step_ = inWindow(frame) ? coarsest : 1;
+    step_ = inParts ? coarsest : 1;
 }
 
 /// A whole picture; in a window what a tenth of a second allows, but all blocks of one size at least.
-void PixelRays::refine(const Frame& frame, const AmbientOptions& options) {
-    const bool inParts = inWindow(frame);
+void PixelRays::refine(const Frame& frame, const AmbientOptions& options, bool inParts) {
     const auto stop = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
     while (step_ > 0) {
         while (row_ < rows()) {
@@ -128,14 +123,15 @@ void PixelRays::refine(const Frame& frame, const AmbientOptions& options) {
     }
 }
 
-void PixelRays::update(const Frame& frame, const AmbientOptions& options) {
+void PixelRays::update(const Frame& frame, const AmbientOptions& options, bool inParts) {
+    inParts = inParts && frame.view != "profile";  // of which one row is traced anyway
     const std::string key = options.visibilityKey(frame.seed) + options.lightKey() +
                             (frame.skip ? "" : " all") + (frame.view == "profile" ? " middle row" : "");
     if (frame.renderMapsAgain || key != key_ || size_ != frame.size || camera_ != frame.camera)
-        start(frame, key);
+        start(frame, key, inParts);
     if (step_ > 0) {
         key_.clear();  // should the sky's file be broken, the next frame tries again
-        refine(frame, options);
+        refine(frame, options, inParts);
         key_ = key;
         upload(size_);
     }

@@ -19,10 +19,14 @@ class PixelRays {
     /// Traces, unless nothing has changed since the latest frame. Counts primary_rays, rays_traced,
     /// rays_saved (towards what nothing can be in the way of) and pixels_receiving.
     ///
-    /// In a window that would take seconds for each step of the mouse. There it traces one pixel of each
-    /// block of 16 x 16 at first, and refines for a tenth of a second in every further frame; while anything
-    /// is left it counts rows_left, and the window goes on drawing. The last picture is the same.
-    void update(const Frame& frame, const AmbientOptions& options);
+    /// `inParts`: for a window, where that would take seconds for each step of the mouse. One pixel of each
+    /// block of 16 x 16 is traced at first, and every further frame refines for a tenth of a second; while
+    /// anything is left it counts rows_left, and the window goes on drawing. The last picture is the same.
+    void update(const Frame& frame, const AmbientOptions& options, bool inParts);
+    /// The same, in parts if there is a window.
+    void update(const Frame& frame, const AmbientOptions& options) {
+        update(frame, options, frame.context->window() != nullptr);
+    }
 
     /// One texel for each pixel. Bent vector and ambient visibility; radiance that arrives (E / pi), and how
     /// much work it was: 0 none, 1 rays that agreed, 2 rays that did not.
@@ -38,8 +42,8 @@ class PixelRays {
         std::int64_t traced = 0, saved = 0, receiving = 0;
     };
 
-    void start(const Frame& frame, const std::string& key);
-    void refine(const Frame& frame, const AmbientOptions& options);
+    void start(const Frame& frame, const std::string& key, bool inParts);
+    void refine(const Frame& frame, const AmbientOptions& options, bool inParts);
     void traceRows(const Frame& frame, const AmbientOptions& options, int count);
     void traceRow(const Frame& frame, const AmbientOptions& options, const SkyLight& light, int y,
                   Counts& counts);

@@ -404,6 +404,25 @@ TEST(Chapter09Skips, WhatDidNotChangeIsNotTracedAgain) {
     EXPECT_EQ(differing(first, harness.scalar("ambient", small)), 0u);
 }
 
+TEST(Chapter09Skips, APictureInPartsEndsAsTheWhole) {
+    ChapterHarness harness = harnessOf(testScene("contact"));
+    AmbientOptions options;
+    options.samples = 16;
+    const glm::ivec2 size(75, 50);  // no multiple of a block
+    PixelRays whole(harness.scene), parts(harness.scene);
+    whole.update(harness.frame("ambient", size), options, false);
+    const std::int64_t traced = harness.work["rays_traced"];
+    EXPECT_EQ(harness.work.count("rows_left"), 0u);
+    int frames = 0;
+    do {
+        parts.update(harness.frame("ambient", size), options, true);
+        ASSERT_LT(++frames, 1000);
+    } while (harness.work.count("rows_left") > 0);
+    EXPECT_EQ(harness.work["rays_traced"], traced);
+    for (std::size_t i = 0; i < whole.hits().size(); ++i)
+        ASSERT_EQ(whole.visibility(i), parts.visibility(i)) << i;
+}
+
 TEST(Chapter09, WhatAMethodCannotDoIsRefused) {
     const Settings wrong[] = {{{"sun", "on"}, {"method", "vertices"}},
                               {{"method", "bits"}, {"samples", "32"}},
