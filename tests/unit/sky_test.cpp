@@ -100,7 +100,7 @@ TEST(Sky, FilesOfAnyChannelsAreRead) {
         const auto file = folder.path() / ("sky" + std::to_string(channels) + ".exr");
         FloatImage picture(8, 4, channels, 0.5f);
         if (channels == 4)
-            for (int i = 0; i < 32; ++i) picture.values[std::size_t(4 * i + 3)] = 9.0f;
+            for (std::size_t i = 0; i < 32; ++i) picture.values[4 * i + 3] = 9.0f;
         writeImage(file, picture);
         EXPECT_EQ(Sky::named(file.string()).radiance({0.6, 0.0, 0.8}), dvec3(0.5)) << channels;
     }
