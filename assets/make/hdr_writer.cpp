@@ -20,8 +20,9 @@ constexpr int pointsAcross = 4;  ///< of a texel, in either direction
 glm::dvec3 texelRadiance(const Environment& environment, int column, int row) {
     glm::dvec3 sum(0.0);
     for (int i = 0; i < pointsAcross * pointsAcross; ++i) {
-        const double u = (column + (i % pointsAcross + 0.5) / pointsAcross) / environment.width;
-        const double v = (row + (i / pointsAcross + 0.5) / pointsAcross) / environment.height;
+        const int across = i % pointsAcross, down = i / pointsAcross;
+        const double u = (column + (across + 0.5) / pointsAcross) / environment.width;
+        const double v = (row + (down + 0.5) / pointsAcross) / environment.height;
         const double phi = 2.0 * pi * (u - 0.5), theta = pi * v;
         sum += environment.radiance(
             {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)});
