@@ -12,7 +12,8 @@ namespace penumbra {
 
 namespace {
 
-constexpr std::size_t leaf = 8;  ///< directions that belong together, whatever the size of a batch
+constexpr std::size_t leaf = 8;        ///< directions that belong together, whatever the size of a batch
+constexpr int mostDirections = 16384;  ///< of --rotate: more would change no colour of a screen
 
 /// All that the sums depend on. Scenes are immutable once loaded, so the pointer stands for the surfaces.
 struct Key {
@@ -23,6 +24,7 @@ struct Key {
     std::uint32_t seed = 0;
     bool countWork = false;
     std::vector<glm::dvec3> radiances;  ///< of the sky, in the directions of the pattern
+    std::vector<GLuint> programs;       ///< a shader that was loaded again is another
     bool operator==(const Key&) const = default;
 };
 
@@ -45,12 +47,27 @@ struct AccumulatedOcclusion::State {
     std::uint32_t frames = 0;  ///< that were added up
     bool perVertex = false;
 
+    std::vector<Program*> programs();
+    std::vector<GLuint> programIds();
     void begin(const Frame& frame, const OcclusionOptions& options);
     void addDirections(const Frame& frame, const OcclusionOptions& options, const Sky& sky,
                        std::vector<glm::dvec3> directions);
     void addBatch(const Frame& frame, const OcclusionOptions& options, const Sky& sky,
                   std::span<const glm::dvec3> directions);
 };
+
+std::vector<Program*> AccumulatedOcclusion::State::programs() {
+    std::vector<Program*> all = sums.programs();
+    all.push_back(&depth);
+    all.push_back(&receivers.program());
+    return all;
+}
+
+std::vector<GLuint> AccumulatedOcclusion::State::programIds() {
+    std::vector<GLuint> ids;
+    for (const Program* program : programs()) ids.push_back(program->id());
+    return ids;
+}
 
 /// New receivers, and nothing added up.
 void AccumulatedOcclusion::State::begin(const Frame& frame, const OcclusionOptions& options) {
@@ -117,19 +134,23 @@ AmbientTextures AccumulatedOcclusion::update(const Frame& frame, const Occlusion
                options,
                frame.seed,
                frame.view == "work",
-               radiancesOf(sky, directions)};
+               radiancesOf(sky, directions),
+               state.programIds()};
     const bool same = state.held && *state.held == wanted;
     if (!same || (!options.rotate && (!frame.skip || frame.renderMapsAgain))) {
         state.begin(frame, options);  // Pass 1: where the receivers are
         state.held = std::move(wanted);
     }
-    if (state.frames == 0 || options.rotate) {
+    const auto added = [&] { return int(state.frames) * options.samples; };
+    if (state.frames == 0 || (options.rotate && added() < mostDirections)) {
         const glm::dmat3 rotation = skyRotation(state.frames, frame.seed);
         for (glm::dvec3& l : directions) l = rotation * l;
         state.addDirections(frame, options, sky, std::move(directions));
         ++state.frames;
-        state.sums.resolve(int(state.frames) * options.samples);  // Pass 4: the means
+        state.sums.resolve(added());                // Pass 4: the means
+        state.held->programs = state.programIds();  // some are compiled when they are first needed
     }
+    if (options.rotate) frame.work["directions_left"] = std::max(0, mostDirections - added());
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
     glViewport(0, 0, frame.size.x, frame.size.y);
     const TexturePair& resolved = state.sums.resolved();
@@ -145,10 +166,7 @@ std::vector<AmbientValue> AccumulatedOcclusion::vertexValues(const Scene& scene)
 }
 
 std::vector<Program*> AccumulatedOcclusion::programs() {
-    std::vector<Program*> all = state_->sums.programs();
-    all.push_back(&state_->depth);
-    all.push_back(&state_->receivers.program());
-    return all;
+    return state_->programs();
 }
 
 }  // namespace penumbra

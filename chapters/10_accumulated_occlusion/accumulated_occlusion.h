@@ -33,7 +33,8 @@ class AccumulatedOcclusion {
 
     /// Brings the textures up to date for this frame: valid until the next call. Does nothing if they are up
     /// to date already and `frame.skip` (and maps need not be drawn again); with `options.rotate` adds
-    /// another `options.samples` directions as long as nothing else changes. A(x) = sum V max(0, n.l) / sum
+    /// another `options.samples` directions as long as nothing else changes, up to 16384
+    /// (directions_left says how many more; the window goes on drawing). A(x) = sum V max(0, n.l) / sum
     /// max(0, n.l) over all directions so far. Counts directions_added, shadow_maps_rendered,
     /// shadow_maps_skipped, triangles_submitted, draw_calls. Leaves frame.framebuffer bound, with its
     /// viewport, and the depth test off. Throws Error where floats cannot be drawn into.

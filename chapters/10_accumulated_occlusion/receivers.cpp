@@ -8,28 +8,6 @@
 
 namespace penumbra {
 
-namespace {
-
-/// Tangent of the largest angle between the normal of each vertex and its triangles. Where triangles meet in
-/// a hollow, they rise above one another's planes.
-std::vector<float> facetSlopes(const Scene& scene) {
-    std::vector<float> slopes(scene.positions.size(), 0.0f);
-    for (std::size_t i = 0; i < scene.indices.size(); i += 3) {
-        const std::uint32_t* corner = &scene.indices[i];
-        const glm::vec3 a = scene.positions[corner[0]], b = scene.positions[corner[1]],
-                        c = scene.positions[corner[2]];
-        const glm::vec3 n = glm::cross(b - a, c - a);
-        for (int j = 0; j < 3; ++j) {
-            const glm::vec3& normal = scene.normals[corner[j]];
-            const float cosine = glm::dot(n, normal), sine = glm::length(glm::cross(n, normal));
-            if (cosine > 0.0f) slopes[corner[j]] = std::max(slopes[corner[j]], sine / cosine);
-        }
-    }
-    return slopes;
-}
-
-}  // namespace
-
 Receivers::Receivers() : surface_("08_accumulation/picture.vert", "10_accumulated_occlusion/surface.frag") {}
 
 void Receivers::resize(const glm::ivec2& size) {
@@ -69,19 +47,17 @@ void Receivers::uploadVertices(const Scene& scene) {
     const int width = std::max(1, int(std::ceil(std::sqrt(double(count)))));
     resize({width, std::max(1, (int(count) + width - 1) / width)});
     const std::size_t texels = std::size_t(size_.x) * std::size_t(size_.y);
-    std::vector<float> positions(4 * texels), normals(4 * texels), facets(4 * texels);
-    const std::vector<float> slopes = facetSlopes(scene);
+    std::vector<float> positions(4 * texels), normals(4 * texels);
     for (std::size_t i = 0; i < count; ++i) {
         for (int c = 0; c < 3; ++c) {
             positions[4 * i + std::size_t(c)] = scene.positions[i][c];
-            normals[4 * i + std::size_t(c)] = facets[4 * i + std::size_t(c)] = scene.normals[i][c];
+            normals[4 * i + std::size_t(c)] = scene.normals[i][c];
         }
         positions[4 * i + 3] = 1.0f;
-        facets[4 * i + 3] = slopes[i];
     }
     positions_->upload(positions);
     normals_->upload(normals);
-    facets_->upload(facets);
+    facets_->upload(normals);
 }
 
 std::vector<glm::vec4> Receivers::readNormals() const {

@@ -23,8 +23,7 @@ class Receivers {
     const glm::ivec2& size() const { return size_; }
     GLuint positions() const { return positions_->id(); }  ///< w: 1; 0: no surface
     GLuint normals() const { return normals_->id(); }      ///< shading normals, unit
-    /// Normals of the triangles, unit; w: tangent of the angle by which a neighbouring triangle may be
-    /// tilted.
+    /// Normals of the triangles, unit; of vertices, which have several: the shading normals again.
     GLuint facets() const { return facets_->id(); }
     /// Shading normals of all receivers; 0 where there is no surface.
     std::vector<glm::vec4> readNormals() const;

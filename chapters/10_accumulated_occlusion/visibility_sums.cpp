@@ -1,6 +1,5 @@
 #include "chapters/10_accumulated_occlusion/visibility_sums.h"
 
-#include <cmath>
 #include <utility>
 
 #include "chapters/10_accumulated_occlusion/direction_batches.h"
@@ -70,7 +69,6 @@ void setBias(Program& program, const SkyMaps& maps, const Aabb& bounds, const Sk
     program.set("uDepthPerMetre", float(1.0 / (frustum.far - frustum.near)));
     program.set("uBiasPerSlope", batch.bias * bias.perSlope / float(texelsPerMetre));
     program.set("uBias", batch.bias * bias.constant);
-    program.set("uTiltSlope", float(std::sqrt(2.0) * texelsPerMetre));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The shadow tests of a batch of maps, added to the sums of every receiver: a texel each.
 uniform sampler2D uPositions;   // metres; w: 1, or 0 where there is no receiver
 uniform sampler2D uNormals;     // shading normals
-uniform sampler2D uFacets;      // normals of the triangles; w: tangent of the tilt of their neighbours
+uniform sampler2D uFacets;      // normals of the triangles themselves
 uniform sampler2D uSeen;        // the sums so far: V (n.l) l, and V (n.l)
 uniform sampler2D uReceived;    // V (n.l) L, and (n.l)
 uniform sampler2DArray uMaps;
@@ -15,7 +15,6 @@ uniform vec4 uRadiance[BATCH];  // of the sky there
 uniform float uDepthPerMetre;
 uniform float uBiasPerSlope;    // slopes in texels a metre: of uAcross, uUp
 uniform float uBias;
-uniform float uTiltSlope;       // what a tilt of tangent 1 adds to a slope
 
 layout(location = 0) out vec4 outSeen;
 layout(location = 1) out vec4 outReceived;
@@ -24,21 +23,21 @@ const float horizonCosine = 0.02;
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    vec4 p = texelFetch(uPositions, texel, 0), facet = texelFetch(uFacets, texel, 0);
-    vec3 n = texelFetch(uNormals, texel, 0).xyz;
+    vec4 p = texelFetch(uPositions, texel, 0);
+    vec3 n = texelFetch(uNormals, texel, 0).xyz, facet = texelFetch(uFacets, texel, 0).xyz;
     vec4 seen = texelFetch(uSeen, texel, 0), received = texelFetch(uReceived, texel, 0);
     // [begin:accumulate]
     // A skip as the bound of a loop: it ends where no pixel of the processor's group needs it. An `if` would run on.
     int count = dot(n, uCone.xyz) > uCone.w ? uCount : 0;
     for (int k = 0; k < count; ++k) {
         vec3 l = uToSky[k].xyz;
-        float weight = dot(n, l), facing = dot(facet.xyz, l);
+        float weight = dot(n, l), facing = dot(facet, l);
         if (weight <= horizonCosine) weight = 0.0;
         received.w += weight;
 
         // Chapter 03's bound, S + Q + C. A map of the sky has no perspective, so the slope of a plane follows from its normal:
         // |dz/ds| + |dz/dt| = slope / facing. Everything is multiplied by `facing`, and there is nothing to divide by.
-        float slope = abs(dot(facet.xyz, uAcross[k].xyz)) + abs(dot(facet.xyz, uUp[k].xyz)) + facet.w * uTiltSlope;
+        float slope = abs(dot(facet, uAcross[k].xyz)) + abs(dot(facet, uUp[k].xyz));
         float z = (uToSky[k].w - dot(l, p.xyz)) * uDepthPerMetre;
         float zMap = texelFetch(uMaps, ivec3(dot(uAcross[k], p), dot(uUp[k], p), k), 0).r;
         bool lit = facing > 0.0 && (z - zMap - uBias) * facing <= uBiasPerSlope * slope;
