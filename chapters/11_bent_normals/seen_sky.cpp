@@ -18,7 +18,7 @@ void SeenSky::update(const Frame& frame, const BentOptions& options) {
         return;
     }
     if (!pixels_) pixels_.emplace(scene_);
-    pixels_->update(frame, options.ambient(), frame.context->window() != nullptr);
+    pixels_->update(frame, options.ambient());
     texels_ = pixels_->values();
 }
 // [end:sources]
