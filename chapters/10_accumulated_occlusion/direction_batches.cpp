@@ -59,14 +59,15 @@ DirectionCone coneAround(std::span<const glm::dvec3> directions) {
 // [end:cone]
 
 ReceiverHorizons::ReceiverHorizons(std::span<const glm::vec4> normals) {
-    constexpr int cells = 16;  // along each axis, over [-1, 1]
+    constexpr std::size_t cells = 16;  // along each axis, over [-1, 1]
     std::vector<Box> grid(cells * cells * cells);
     for (const glm::vec4& normal : normals) {
         const glm::vec3 n(normal);
         if (n == glm::vec3(0.0f)) continue;
-        const glm::ivec3 at =
-            glm::clamp(glm::ivec3((n * 0.5f + 0.5f) * float(cells)), glm::ivec3(0), glm::ivec3(cells - 1));
-        Box& box = grid[std::size_t((at.z * cells + at.y) * cells + at.x)];
+        const glm::ivec3 at = glm::clamp(glm::ivec3((n * 0.5f + 0.5f) * float(cells)), glm::ivec3(0),
+                                         glm::ivec3(int(cells) - 1));
+        const std::size_t layer = std::size_t(at.z) * cells * cells, row = std::size_t(at.y) * cells;
+        Box& box = grid[layer + row + std::size_t(at.x)];
         box.lower = glm::min(box.lower, n);
         box.upper = glm::max(box.upper, n);
     }
