@@ -189,7 +189,7 @@ def parameters(marker, page):
         return marker.body
     rows = []
     for p in page.programs.parameters(marker.argument, marker.where):
-        limits = " | ".join(p["choices"]) if p.get("choices") else ""
+        limits = " | ".join(p.get("choices", []) + (["FILE"] if p.get("or_file") else []))
         if p.get("range"):
             limits = "{} … {}".format(*p["range"])
         rows.append([f"`--{p['name']}`", limits, str(p.get("default", "")), p.get("unit", ""), p.get("help", "")])

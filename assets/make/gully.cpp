@@ -66,6 +66,8 @@ Mesh pitBlock() {
 GlbWriter makeGully() {
     GlbWriter scene("gully");
     scene.camera("camera", looking({2.4, 9.0, 7.6}, {1.9, -0.8, -0.3}), 52.0, 0.1, 80.0);
+    // From far above, so that the middle row of the picture is a cut across all four at z = 0.
+    scene.camera("above", looking({1.0, 60.0, 0.0}, {1.0, 0.0, 0.0}), 10.3, 40.0, 80.0);
     scene.sun("sun", {0.55, -0.75, -0.4}, {3.2, 2.9, 2.5});
     scene.point("lamp", {4.6, 2.4, 1.2}, {8.0, 7.0, 5.5});
     const int sand = scene.material({.name = "sand", .colour = {0.64, 0.55, 0.43}, .roughness = 0.95});

@@ -1,8 +1,9 @@
-// make_assets OUTPUT_FOLDER: makes every scene of assets/, the same bytes each time.
+// make_assets OUTPUT_FOLDER: makes every scene and environment map of assets/, the same bytes each time.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
+#include "assets/make/environments.h"
 #include "assets/make/scenes.h"
 #include "common/error.h"
 
@@ -27,6 +28,16 @@ constexpr SceneMaker makers[] = {
     {"courtyard.glb", makeCourtyard},
 };
 
+struct EnvironmentMaker {
+    const char* file;
+    Environment (*make)();
+};
+
+constexpr EnvironmentMaker environments[] = {
+    {"clear_sky.hdr", makeClearSky},
+    {"chapel.hdr", makeChapel},
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -35,9 +46,10 @@ int main(int argc, char** argv) {
         return penumbra::exitUsage;
     }
     try {
-        std::filesystem::create_directories(argv[1]);
-        for (const SceneMaker& maker : makers)
-            maker.make().write(std::filesystem::path(argv[1]) / maker.file);
+        const std::filesystem::path folder = argv[1];
+        std::filesystem::create_directories(folder);
+        for (const SceneMaker& maker : makers) maker.make().write(folder / maker.file);
+        for (const EnvironmentMaker& maker : environments) writeHdr(folder / maker.file, maker.make());
     } catch (const std::exception& error) {
         std::fprintf(stderr, "make_assets: %s\n", error.what());
         return penumbra::exitFailed;

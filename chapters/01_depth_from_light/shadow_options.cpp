@@ -66,10 +66,14 @@ void clearPicture(const Frame& frame, const ShadowOptions& options) {
 }
 
 void drawPicture(Program& program, const Frame& frame) {
+    drawPicture(program, frame, *frame.gpu);
+}
+
+void drawPicture(Program& program, const Frame& frame, const GpuScene& gpu) {
     const Frustum seen(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y));
     const VisibleClusters visible =
         frame.skip ? visibleClusters(frame.scene, seen) : allClusters(frame.scene);
-    const DrawCounts drawn = frame.gpu->drawShaded(program, visible);
+    const DrawCounts drawn = gpu.drawShaded(program, visible);
     frame.work["triangles_shaded"] += std::int64_t(drawn.triangles);
     frame.work["triangles_unseen"] += std::int64_t(frame.scene.triangleCount() - drawn.triangles);
     frame.work["draw_calls"] += std::int64_t(drawn.drawCalls);

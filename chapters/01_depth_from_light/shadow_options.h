@@ -53,6 +53,8 @@ void clearPicture(const Frame& frame, const ShadowOptions& options);
 /// Draws what the camera of the frame can see (everything without `frame.skip`: same picture) with `program`.
 /// Counts triangles_shaded, triangles_unseen and draw_calls.
 void drawPicture(Program& program, const Frame& frame);
+/// The same from `gpu`, whose triangles are those of the frame's scene in the same order.
+void drawPicture(Program& program, const Frame& frame, const GpuScene& gpu);
 
 /// Ambient radiance as a share of what key light gives a facing surface: dark enough for shadows to read,
 /// bright enough to see into them.

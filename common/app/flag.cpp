@@ -149,7 +149,8 @@ std::string parameterHelp(const Parameter& p) {
     const std::string unit = p.unit.empty() ? "" : " " + p.unit;
     std::string allowed;
     if (!p.choices.empty()) {
-        allowed = fmt::format("{} (default {})", joinNames(p.choices), std::get<std::string>(p.defaultValue));
+        allowed = fmt::format("{}{} (default {})", joinNames(p.choices), p.orFile ? " or FILE" : "",
+                              std::get<std::string>(p.defaultValue));
     } else if (const bool* value = std::get_if<bool>(&p.defaultValue)) {
         allowed = fmt::format("on or off (default {})", *value ? "on" : "off");
     } else {

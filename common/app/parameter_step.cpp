@@ -43,7 +43,8 @@ void stepParameter(const Parameter& parameter, int direction) {
     } else {
         std::string& text = *std::get<std::string*>(parameter.value);
         const auto& choices = parameter.choices;
-        const auto now = std::find(choices.begin(), choices.end(), text) - choices.begin();
+        const auto found = std::find(choices.begin(), choices.end(), text);
+        const auto now = found == choices.end() ? 0 : found - choices.begin();  // a file: from the first on
         const auto count = std::ptrdiff_t(choices.size());
         text = choices[std::size_t((now + direction + count) % count)];
     }

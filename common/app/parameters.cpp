@@ -69,9 +69,11 @@ void setFromText(const Parameter& p, bool& value, const std::string& text) {
 }
 
 void setFromText(const Parameter& p, std::string& value, const std::string& text) {
-    if (std::find(p.choices.begin(), p.choices.end(), text) == p.choices.end())
+    const bool file = p.orFile && text.find_first_of("./") != std::string::npos;
+    if (!file && std::find(p.choices.begin(), p.choices.end(), text) == p.choices.end())
         refuse(p, text,
-               fmt::format("must be one of {}{}", joinNames(p.choices), didYouMean(text, p.choices)));
+               fmt::format("must be one of {}{}{}", joinNames(p.choices), p.orFile ? ", or a file" : "",
+                           didYouMean(text, p.choices)));
     value = text;
 }
 
@@ -100,6 +102,7 @@ Json description(const Parameter& parameter) {
     if (parameter.defaultValue.index() == 1)
         entry["range"] = {shortest(float(parameter.low)), shortest(float(parameter.high))};
     if (!parameter.choices.empty()) entry["choices"] = parameter.choices;
+    if (parameter.orFile) entry["or_file"] = true;
     entry["default"] =
         std::visit([](const auto& value) { return toJsonValue(value); }, parameter.defaultValue);
     entry["help"] = parameter.help;
@@ -148,6 +151,12 @@ void Parameters::add(const std::string& name, std::string& value, std::vector<st
     const Parameter added{name, help, "", &value, 0.0, 0.0, std::move(choices), value};
     requireGoodDeclaration(parameters_, added, known);
     parameters_.push_back(added);
+}
+
+void Parameters::addOrFile(const std::string& name, std::string& value, std::vector<std::string> choices,
+                           const std::string& help) {
+    add(name, value, std::move(choices), help);
+    parameters_.back().orFile = true;
 }
 
 void Parameters::set(const std::string& name, const std::string& text) {

@@ -19,6 +19,7 @@ struct Parameter {
     double high = 0.0;
     std::vector<std::string> choices;  ///< of a string parameter
     std::variant<int, float, bool, std::string> defaultValue;
+    bool orFile = false;  ///< of a string parameter: the path of a file is allowed too
 };
 
 class Parameters {
@@ -30,6 +31,10 @@ class Parameters {
     void add(const std::string& name, bool& value, const std::string& help);
     void add(const std::string& name, std::string& value, std::vector<std::string> choices,
              const std::string& help);
+    /// One of the choices, or the path of a file, which has a dot or a slash in it. Whether there is such a
+    /// file is for the chapter to say.
+    void addOrFile(const std::string& name, std::string& value, std::vector<std::string> choices,
+                   const std::string& help);
 
     const std::vector<Parameter>& all() const { return parameters_; }
     /// Sets from text. Throws UsageError: unknown name, not a number, NaN, out of range (and says the range),

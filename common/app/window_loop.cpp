@@ -82,7 +82,18 @@ class WindowLoop {
 
  private:
     bool isVisible() const { return framebufferSize(window_) != glm::ivec2(0); }  // else minimised
-    bool needsPicture() const { return changed_ || divisor_ > 1 || framebufferSize(window_) != drawnSize_; }
+    bool needsPicture() const {
+        return changed_ || divisor_ > 1 || isUnfinished() || framebufferSize(window_) != drawnSize_;
+    }
+    /// A chapter that refines its picture from frame to frame counts the rows, or the directions, it has
+    /// left.
+    bool isUnfinished() const {
+        const auto left = [this](const char* counter) {
+            const auto found = state_.work.find(counter);
+            return found != state_.work.end() && found->second > 0;
+        };
+        return frameError_.empty() && (left("rows_left") || left("directions_left"));
+    }
 
     void frame() {
         imgui_.begin();

@@ -35,6 +35,7 @@
     X(PFNGLDEPTHFUNCPROC, glDepthFunc)                                           \
     X(PFNGLDEPTHMASKPROC, glDepthMask)                                           \
     X(PFNGLDISABLEPROC, glDisable)                                               \
+    X(PFNGLDISABLEVERTEXATTRIBARRAYPROC, glDisableVertexAttribArray)             \
     X(PFNGLDRAWARRAYSPROC, glDrawArrays)                                         \
     X(PFNGLDRAWBUFFERSPROC, glDrawBuffers)                                       \
     X(PFNGLDRAWELEMENTSPROC, glDrawElements)                                     \

@@ -184,6 +184,10 @@ std::vector<glm::vec3> readVec3(Document& document, int index, Integers integers
     return readVectors<glm::vec3>(document, index, integers, who, TINYGLTF_TYPE_VEC3, "VEC3");
 }
 
+std::vector<glm::vec1> readScalars(Document& document, int index, Integers integers, const std::string& who) {
+    return readVectors<glm::vec1>(document, index, integers, who, TINYGLTF_TYPE_SCALAR, "SCALAR");
+}
+
 std::vector<glm::vec2> readVec2(Document& document, int index, Integers integers, const std::string& who) {
     return readVectors<glm::vec2>(document, index, integers, who, TINYGLTF_TYPE_VEC2, "VEC2");
 }

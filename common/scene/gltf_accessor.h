@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/ext/vector_float1.hpp>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ enum class Integers { no, normalizedUnsigned, any };
 /// user in messages ("mesh 2 primitive 0 POSITION"). Throws Error: no such accessor, another type, out of
 /// range.
 std::vector<glm::vec3> readVec3(Document& document, int index, Integers integers, const std::string& who);
+std::vector<glm::vec1> readScalars(Document& document, int index, Integers integers, const std::string& who);
 std::vector<glm::vec2> readVec2(Document& document, int index, Integers integers, const std::string& who);
 /// Unsigned 8-, 16- or 32-bit scalars.
 std::vector<std::uint32_t> readIndices(Document& document, int index, const std::string& who);

@@ -53,6 +53,7 @@ const glm::vec3 anyAxis(0.0f, 1.0f, 0.0f);
 void makeFlat(PartMesh& mesh) {
     unshare(mesh.positions, mesh.indices);
     unshare(mesh.uvs, mesh.indices);
+    if (!mesh.ambient.empty()) unshare(mesh.ambient, mesh.indices);
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = std::uint32_t(i);
     mesh.normals.resize(mesh.positions.size());
     for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
@@ -101,6 +102,7 @@ void orderVertices(PartMesh& mesh) {
     apply(mesh.positions);
     apply(mesh.normals);
     apply(mesh.uvs);
+    if (!mesh.ambient.empty()) apply(mesh.ambient);
     for (std::uint32_t& index : mesh.indices) index = remap[index];
 }
 
@@ -147,6 +149,7 @@ std::size_t appendPart(Scene& scene, PartMesh mesh, int material, const std::str
     append(scene.positions, mesh.positions);
     append(scene.normals, mesh.normals);
     append(scene.uvs, mesh.uvs);
+    append(scene.ambient, mesh.ambient);
     for (const std::uint32_t index : mesh.indices) scene.indices.push_back(firstVertex + index);
     return repaired;
 }

@@ -15,6 +15,7 @@ struct PartMesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  ///< as given; empty: flat shading
     std::vector<glm::vec2> uvs;      ///< empty: (0, 0)
+    std::vector<glm::vec4> ambient;  ///< as in Scene::ambient; empty: none
     std::vector<std::uint32_t> indices;
 };
 

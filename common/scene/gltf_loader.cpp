@@ -104,6 +104,10 @@ void flatten(Document& document, std::vector<Instance>& instances, const std::ve
     }
     if (repaired > 0) document.note(fmt::format("{} normals had no direction and were replaced", repaired));
     if (scene.parts.empty()) failEmpty(document);
+    if (!scene.ambient.empty() && scene.ambient.size() != scene.positions.size()) {
+        document.note("baked ambient light is ignored: not every mesh has it");
+        scene.ambient.clear();
+    }
 }
 
 Scene buildScene(Document& document) {

@@ -62,6 +62,7 @@ void dropUnusedVertices(LocalMesh& mesh) {
     gather(mesh.positions, sources);
     gather(mesh.normals, sources);
     gather(mesh.uvs, sources);
+    gather(mesh.ambient, sources);
 }
 
 int attributeOf(const tinygltf::Primitive& primitive, const std::string& name) {
@@ -112,6 +113,27 @@ void requireCount(const Document& document, const std::vector<Vector>& values, s
     }
 }
 
+/// Baked ambient light; nothing unless both attributes are there.
+std::vector<glm::vec4> readAmbient(Document& document, const tinygltf::Primitive& primitive,
+                                   std::size_t count, const std::string& who) {
+    const int bent = attributeOf(primitive, "_AMBIENT_BENT");
+    const int visibility = attributeOf(primitive, "_AMBIENT_VISIBILITY");
+    if (bent < 0 || visibility < 0) return {};
+    const auto bents = readVec3(document, bent, Integers::no, who + " _AMBIENT_BENT");
+    const auto visibilities = readScalars(document, visibility, Integers::no, who + " _AMBIENT_VISIBILITY");
+    requireCount(document, bents, count, who + " _AMBIENT_BENT");
+    requireCount(document, visibilities, count, who + " _AMBIENT_VISIBILITY");
+    std::vector<glm::vec4> ambient;
+    for (std::size_t i = 0; i < bents.size() && i < visibilities.size(); ++i) {
+        ambient.emplace_back(bents[i], visibilities[i].x);
+        const glm::vec4& a = ambient.back();
+        if (!std::isfinite(a.x + a.y + a.z + a.w))
+            document.fail(fmt::format("{}: baked ambient light {} is ({}, {}, {}, {}), not finite", who, i,
+                                      a.x, a.y, a.z, a.w));
+    }
+    return ambient;
+}
+
 void readAttributes(Document& document, const tinygltf::Primitive& primitive, int texCoord,
                     const std::string& who, LocalMesh& mesh) {
     const bool quantized = usesQuantization(document);
@@ -128,6 +150,7 @@ void readAttributes(Document& document, const tinygltf::Primitive& primitive, in
                             who + " " + texCoordName);
         requireCount(document, mesh.uvs, mesh.positions.size(), who + " " + texCoordName);
     }
+    mesh.ambient = readAmbient(document, primitive, mesh.positions.size(), who);
     if (primitive.attributes.count("COLOR_0") > 0) document.note("vertex colours are ignored");
     if (!primitive.targets.empty()) document.note("morph targets are ignored");
 }

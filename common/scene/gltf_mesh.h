@@ -14,6 +14,7 @@ struct LocalMesh {
     std::vector<glm::vec3> positions;    ///< finite
     std::vector<glm::vec3> normals;      ///< as in the file, or empty
     std::vector<glm::vec2> uvs;          ///< as in the file, or empty
+    std::vector<glm::vec4> ambient;      ///< as in Scene::ambient, in the mesh's own space, or empty
     std::vector<std::uint32_t> indices;  ///< 3 per triangle; every vertex is used
 };
 

@@ -35,6 +35,11 @@ PartMesh placeMesh(LocalMesh&& local, const glm::dmat4& sceneFromMesh, const glm
     if (size > 0.0) normalMatrix /= size;
     mesh.normals = std::move(local.normals);
     for (glm::vec3& n : mesh.normals) n = glm::vec3(normalMatrix * glm::dvec3(n));
+    mesh.ambient = std::move(local.ambient);
+    // A bent vector is a mean of directions: it turns with the mesh, and does not grow with it.
+    const double scale = std::cbrt(std::abs(glm::determinant(linear)));
+    for (glm::vec4& a : mesh.ambient)
+        a = glm::vec4(linear * glm::dvec3(a) / std::max(scale, 1e-300), double(a.w));
     mesh.uvs = std::move(local.uvs);
     for (glm::vec2& uv : mesh.uvs) uv = glm::vec2(uvFromFile * glm::dvec3(uv, 1.0));
     for (std::size_t t = 0; mirrored && t < mesh.indices.size(); t += 3)

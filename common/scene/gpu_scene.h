@@ -44,6 +44,8 @@ class GpuScene {
     DrawCounts drawDepth(const DepthDraw& draw) const;
     /// What drawDepth draws from: a caller may add per-instance attributes from location 3 on.
     GLuint depthArray() const { return depthArray_.id(); }
+    /// What drawShaded draws from: a caller may add per-vertex attributes from location 3 on.
+    GLuint shadedArray() const { return shadedArray_.id(); }
 
     /// Full attributes, one material at a time: sets the uniforms of shaders/common/material.glsl on
     /// `program` before each draw (uDiffuse, uSpecular, uShininess, uEmission, uDiffuseTexture, uHasTexture).

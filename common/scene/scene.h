@@ -94,12 +94,15 @@ struct Camera {
 };
 
 struct Scene {
-    std::string name;                    ///< e.g. "courtyard", or the file's stem
-    std::string source;                  ///< path of the file it came from
-    glm::dvec3 origin{0.0};              ///< file-space position of (0,0,0) of everything below
-    std::vector<glm::vec3> positions;    ///< metres, relative to origin
-    std::vector<glm::vec3> normals;      ///< unit shading normals; one per position
-    std::vector<glm::vec2> uvs;          ///< texture coordinates; one per position
+    std::string name;                  ///< e.g. "courtyard", or the file's stem
+    std::string source;                ///< path of the file it came from
+    glm::dvec3 origin{0.0};            ///< file-space position of (0,0,0) of everything below
+    std::vector<glm::vec3> positions;  ///< metres, relative to origin
+    std::vector<glm::vec3> normals;    ///< unit shading normals; one per position
+    std::vector<glm::vec2> uvs;        ///< texture coordinates; one per position
+    /// Baked ambient light, one per position: the bent vector, and the ambient visibility in w; empty unless
+    /// the file has it, on all of its meshes (vertex attributes _AMBIENT_BENT and _AMBIENT_VISIBILITY).
+    std::vector<glm::vec4> ambient;
     std::vector<std::uint32_t> indices;  ///< 3 per triangle, counter-clockwise seen from the front
     std::vector<Part> parts;             ///< cover all triangles, in order
     std::vector<Cluster> clusters;       ///< cover all triangles, in order

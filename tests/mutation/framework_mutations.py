@@ -1,21 +1,12 @@
 """Breaks common/ on purpose, one break at a time, and demands that the unit test named with the break notices.
 
-As truth_mutations.py does for the exact answers, but these programs need the whole library: so only the broken file is
-compiled anew, as the build compiles it, and linked in front of the archives of a finished build. One alone:
+As truth_mutations.py does for the exact answers, but these programs need the whole library (mutants.ArchiveMutations). One alone:
     python3 tests/mutation/framework_mutations.py FrameworkMutations.testPictureUpsideDown
 """
-import os
-import pathlib
-import shlex
-import shutil
-import subprocess
-import tempfile
 import unittest
 
 import mutants
-from mutants import ROOT
 
-BUILD = pathlib.Path(os.environ.get("PENUMBRA_BUILD", ROOT / "build" / "release"))
 APP, GL, IMAGE, SCENE = "common/app/", "common/gl/", "common/image/", "common/scene/"
 
 # name: (file, unit program, the test of it that must fail, [(old, new), ...])
@@ -95,64 +86,8 @@ MUTATIONS = {
 }
 
 
-def commandsOf(program):
-    """How the build makes a program: one command line for each step, linking last."""
-    if not (BUILD / "bin" / program).exists():
-        raise unittest.SkipTest(f"{BUILD} holds no {program}: build it first (./test does)")
-    return subprocess.run(["ninja", "-C", BUILD, "-t", "commands", program], capture_output=True, text=True,
-                          check=True).stdout.splitlines()
-
-
-def withOutput(words, output):
-    at = words.index("-o") + 1
-    return [*words[:at], str(output), *words[at + 1:]]
-
-
-class FrameworkMutations(unittest.TestCase):
+class FrameworkMutations(mutants.ArchiveMutations):
     mutations = MUTATIONS
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def compile(self, file, text, commands):
-        """The object of `file`, as if it contained `text`."""
-        source, made = self.folder / pathlib.Path(file).name, self.folder / "broken.o"
-        source.write_text(text)
-        line = next(command for command in commands if command.endswith(f"-c {ROOT / file}"))
-        words = withOutput(shlex.split(line), made)
-        words[words.index("-c") + 1] = str(source)
-        words[words.index("-MF") + 1] = str(self.folder / "broken.d")
-        subprocess.run([*words, "-O0", "-w"], cwd=BUILD, check=True, env={**os.environ, "CCACHE_DISABLE": "1"})
-        return made
-
-    def link(self, program, object_, commands):
-        """The program with `object_` in the place of what the archives have under the same names."""
-        words = next(part for part in commands[-1].split("&&") if " -o " in part)
-        binary = self.folder / program
-        words = withOutput(shlex.split(words), binary)
-        at = words.index("-o")
-        subprocess.run([*words[:at], object_, "-Wl,-z,muldefs", *words[at:]], cwd=BUILD, check=True)
-        return binary
-
-    def passes(self, binary, test, shaders=None):
-        environment = {**os.environ, **({"PENUMBRA_SHADERS": str(shaders)} if shaders else {})}
-        return mutants.passes(binary, f"--gtest_filter={test}", environment=environment)
-
-    def check(self, name):
-        file, unit, test, replacements = MUTATIONS[name]
-        program = f"unit_{unit}"
-        commands = commandsOf(program)
-        self.assertTrue(self.passes(BUILD / "bin" / program, test), f"{program} fails without any mutation")
-        text = mutants.broken(self, name, file, replacements)
-        if file.startswith("shaders/"):
-            shutil.copytree(ROOT / "shaders", self.folder / "shaders")
-            (self.folder / file).write_text(text)
-            noticed = not self.passes(BUILD / "bin" / program, test, self.folder / "shaders")
-        else:
-            noticed = not self.passes(self.link(program, self.compile(file, text, commands), commands), test)
-        self.assertTrue(noticed, f"{name}: {program} --gtest_filter={test} does not notice")
 
 
 mutants.addTests(FrameworkMutations)

@@ -113,6 +113,21 @@ TEST(Parameters, TheListSaysEverythingAndTheValuesAreCurrent) {
                           R"({"kernel-width": 7, "bias": 0.1, "front-faces": false, "method": "slope"})"));
 }
 
+TEST(Parameters, OneThatMayBeAFileTakesAPathAndStillKnowsItsNames) {
+    Declared d;
+    std::string sky = "uniform";
+    d.parameters.addOrFile("sky", sky, {"uniform", "overcast"}, "what shines");
+    d.parameters.set("sky", "maps/day.exr");
+    EXPECT_EQ(sky, "maps/day.exr");
+    d.parameters.set("sky", "overcast");
+    EXPECT_EQ(sky, "overcast");
+    EXPECT_EQ(d.refusal("sky", "overcst"),
+              "--sky overcst: must be one of uniform, overcast, or a file; did you mean overcast?");
+    EXPECT_NE(d.refusal("sky", ""), "");
+    EXPECT_NE(d.refusal("method", "a/b.c"), "") << "only where a file is asked for";
+    EXPECT_EQ(nlohmann::json::parse(d.parameters.toJson(false))[4]["or_file"], true);
+}
+
 TEST(Parameters, ADeclarationThatContradictsItselfIsFoundAtOnce) {
     Declared d;
     int outside = 9;

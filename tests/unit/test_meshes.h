@@ -36,15 +36,17 @@ inline void addPart(Scene& scene, const std::vector<glm::dvec3>& points,
     part.firstTriangle = std::uint32_t(scene.triangleCount());
     part.triangleCount = std::uint32_t(indices.size() / 3);
     const auto base = std::uint32_t(scene.positions.size());
+    std::vector<glm::dvec3> placed;
     for (const glm::dvec3& p : points) {
-        const glm::vec3 rounded(place(p));
+        placed.push_back(place(p));
+        const glm::vec3 rounded(placed.back());
         scene.positions.push_back(rounded);
         scene.bounds.extend(glm::dvec3(rounded));
         part.bounds.extend(glm::dvec3(rounded));
     }
     std::vector<glm::vec3> normals(points.size(), glm::vec3(0.0f));
     for (std::size_t i = 0; i < indices.size(); i += 3) {
-        const glm::dvec3 &a = points[indices[i]], &b = points[indices[i + 1]], &c = points[indices[i + 2]];
+        const glm::dvec3 &a = placed[indices[i]], &b = placed[indices[i + 1]], &c = placed[indices[i + 2]];
         for (int k = 0; k < 3; ++k)
             normals[indices[i + std::size_t(k)]] += glm::vec3(glm::normalize(glm::cross(b - a, c - a)));
     }

@@ -1,0 +1,159 @@
+#include "chapters/09_ambient_occlusion/pixel_rays.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <numbers>
+
+#include "common/math/sampling.h"
+#include "common/truth/parallel.h"
+
+namespace penumbra {
+
+namespace {
+
+constexpr int coarsest = 16;  ///< pixels; a power of 4
+
+}  // namespace
+
+glm::dvec3 sunlight(const RayTracer& tracer, const Light& sun, const Hit& hit, const glm::dvec3& normal) {
+    const glm::dvec3 toSun = -sun.direction;
+    const double facing = glm::dot(normal, toSun);
+    if (facing <= 0.0 || glm::dot(hit.geometricNormal, toSun) <= 0.0) return glm::dvec3(0.0);
+    if (tracer.occludedTowards(hit, toSun)) return glm::dvec3(0.0);
+    return sun.emission * (facing / std::numbers::pi);
+}
+
+// [begin:pixels]
+void PixelRays::tracePixel(const Frame& frame, const SkyLight& light, AmbientRays rays,
+                           const glm::ivec2& pixel, Counts& counts) {
+    const Ray ray = cameraRay(frame.camera, glm::dvec2(pixel) + 0.5, size_);
+    Hit& hit = hits_[std::size_t(pixel.y) * std::size_t(size_.x) + std::size_t(pixel.x)];
+    hit = tracer_.nearest(ray);
+    const std::size_t i = 4 * texel(pixel.x, pixel.y);
+    if (!hit.valid) {
+        std::fill_n(&valueTexels_[i], 4, 0.0f);
+        std::fill_n(&lightTexels_[i], 4, 0.0f);
+        return;
+    }
+    faceTheEye(hit, ray);
+    rays.nothingAbove = frame.skip && planes_.nothingAbove(hit, rays.reach.range);
+    const auto directions = castAmbientRays(tracer_, hit, hit.shadingNormal, rays,
+                                            hashSeed(pixel.x, pixel.y, frame.seed), counts.traced);
+    const AmbientValue value = averageOf(directions);
+    glm::dvec3 sum(0.0);
+    std::int64_t open = 0;
+    for (const AmbientDirection& d : directions) {
+        sum += d.open * light.sky.radiance(d.direction);
+        open += d.open == 1.0;
+    }
+    glm::dvec3 radiance = sum / double(rays.count);
+    if (light.sun) radiance += sunlight(tracer_, *light.sun, hit, hit.shadingNormal);
+    if (rays.nothingAbove) counts.saved += open;
+    ++counts.receiving;
+    const float work = rays.nothingAbove ? 0.0f : open == 0 || open == rays.count ? 1.0f : 2.0f;
+    const glm::vec4 stored(glm::vec3(value.bent), float(value.visibility)), lit(glm::vec3(radiance), work);
+    std::copy_n(&stored.x, 4, &valueTexels_[i]);
+    std::copy_n(&lit.x, 4, &lightTexels_[i]);
+}
+// [end:pixels]
+
+/// Every step-th pixel of row y, and its block filled with what was found.
+void PixelRays::traceRow(const Frame& frame, const AmbientOptions& options, const SkyLight& light, int y,
+                         Counts& counts) {
+    const AmbientRays rays = options.rays();
+    for (int x = 0; x < size_.x; x += step_) {
+        tracePixel(frame, light, rays, {x, y}, counts);
+        if (step_ == 1) continue;
+        const std::size_t from = 4 * texel(x, y);
+        for (int v = y; v < std::min(y + step_, size_.y); ++v)
+            for (int u = x; u < std::min(x + step_, size_.x); ++u) {
+                const std::size_t to = 4 * texel(u, v);
+                if (to == from) continue;
+                std::copy_n(&valueTexels_[from], 4, &valueTexels_[to]);
+                std::copy_n(&lightTexels_[from], 4, &lightTexels_[to]);
+            }
+    }
+}
+
+void PixelRays::traceRows(const Frame& frame, const AmbientOptions& options, int count) {
+    const SkyLight& light = options.light(frame.scene);
+    const bool middleRow = frame.view == "profile";  // shows no other
+    std::mutex mutex;
+    parallelRows(
+        count,
+        [&](int i) {
+            const int y = step_ * (row_ + i);
+            if (middleRow && y != size_.y / 2) return;
+            Counts counts;
+            traceRow(frame, options, light, y, counts);
+            const std::lock_guard lock(mutex);
+            counts_.traced += counts.traced;
+            counts_.saved += counts.saved;
+            counts_.receiving += counts.receiving;
+        },
+        frame.progress);
+    row_ += count;
+}
+
+void PixelRays::start(const Frame& frame, const std::string& key, bool inParts) {
+    key_ = key;
+    size_ = frame.size;
+    camera_ = frame.camera;
+    const std::size_t pixels = std::size_t(size_.x) * std::size_t(size_.y);
+    hits_.assign(pixels, {});
+    valueTexels_.assign(4 * pixels, 0.0f);
+    lightTexels_.assign(4 * pixels, 0.0f);
+    counts_ = {};
+    row_ = 0;
+    step_ = inParts ? coarsest : 1;
+}
+
+/// A whole picture; in a window what a tenth of a second allows, but all blocks of one size at least.
+void PixelRays::refine(const Frame& frame, const AmbientOptions& options, bool inParts) {
+    const auto stop = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
+    while (step_ > 0) {
+        while (row_ < rows()) {
+            if (inParts && step_ < coarsest && std::chrono::steady_clock::now() > stop) return;
+            traceRows(frame, options, inParts ? std::min(4, rows() - row_) : rows());
+        }
+        step_ /= 4;
+        row_ = 0;
+        if (step_ > 0) counts_ = {};
+    }
+}
+
+void PixelRays::update(const Frame& frame, const AmbientOptions& options, bool inParts) {
+    inParts = inParts && frame.view != "profile";  // of which one row is traced anyway
+    const std::string key = options.visibilityKey(frame.seed) + options.lightKey() +
+                            (frame.skip ? "" : " all") + (frame.view == "profile" ? " middle row" : "");
+    if (frame.renderMapsAgain || key != key_ || size_ != frame.size || camera_ != frame.camera)
+        start(frame, key, inParts);
+    if (step_ > 0) {
+        key_.clear();  // should the sky's file be broken, the next frame tries again
+        refine(frame, options, inParts);
+        key_ = key;
+        upload(size_);
+    }
+    frame.work["primary_rays"] = std::int64_t(hits_.size());
+    frame.work["rays_traced"] = counts_.traced;
+    frame.work["rays_saved"] = counts_.saved;
+    frame.work["pixels_receiving"] = counts_.receiving;
+    if (step_ > 0) frame.work["rows_left"] = rows() - row_;
+}
+
+void PixelRays::upload(const glm::ivec2& size) {
+    if (!values_ || values_->size() != size) {
+        values_.emplace(size, GL_RGBA32F);
+        light_.emplace(size, GL_RGBA32F);
+    }
+    values_->upload(valueTexels_);
+    light_->upload(lightTexels_);
+}
+
+float PixelRays::visibility(std::size_t pixel) const {
+    const int x = int(pixel) % size_.x, y = int(pixel) / size_.x;
+    return valueTexels_[4 * texel(x, y) + 3];
+}
+
+}  // namespace penumbra

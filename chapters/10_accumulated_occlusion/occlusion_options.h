@@ -1,0 +1,27 @@
+// What is asked of the N shadow maps, from the command line.
+#pragma once
+
+#include <string>
+
+#include "chapters/01_depth_from_light/depth_format.h"
+#include "chapters/10_accumulated_occlusion/sky_directions.h"
+#include "common/app/parameters.h"
+
+namespace penumbra {
+
+struct OcclusionOptions {
+    int samples = 128;  ///< directions, on the whole sphere
+    std::string directions = "fibonacci";
+    int mapSize = 512;
+    std::string depthFormat = "32f";
+    float bias = 1.0f;
+    std::string method = "pixels";
+    bool rotate = false;
+
+    /// Declares --samples, --directions, --map-size, --depth-format, --bias, --method and --rotate.
+    void declare(Parameters& parameters);
+    bool perVertex() const { return method == "vertices"; }
+    bool operator==(const OcclusionOptions&) const = default;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,68 @@
+// The sums, and the pass that adds to them.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "chapters/06_jitter_texture/program_variants.h"
+#include "chapters/08_accumulation/texel_target.h"
+#include "chapters/10_accumulated_occlusion/receivers.h"
+#include "chapters/10_accumulated_occlusion/sky_maps.h"
+#include "common/gl/fullscreen.h"
+
+namespace penumbra {
+
+/// Two RGBA32F textures that are drawn into together.
+class TexturePair {
+ public:
+    explicit TexturePair(const glm::ivec2& size);
+    void bind() const;
+    void clear() const;
+    GLuint first() const { return first_.id(); }
+    GLuint second() const { return second_.id(); }
+    const glm::ivec2& size() const { return first_.size(); }
+    /// All texels of the first one, row 0 at the bottom.
+    std::vector<glm::vec4> readFirst() const;
+
+ private:
+    TexelTexture first_, second_;
+    GlFramebuffer framebuffer_;
+};
+
+/// A batch of maps: layer i holds what `directions`[i] sees, and the sky there has `radiances`[i].
+struct SkyBatch {
+    std::span<const glm::dvec3> directions;
+    std::span<const glm::dvec3> radiances;
+    std::span<const LightFrustum> frusta;
+    bool skip = true;        ///< receivers that face away from all of them are left out
+    bool countWork = false;  ///< count look-ups in place of light
+    float bias = 1.0f;       ///< multiple of the derived bound
+};
+
+class VisibilitySums {
+ public:
+    /// As many maps as the smallest array of uniforms holds: 224 vectors in OpenGL ES 3.0, four a map.
+    static constexpr int batch = 32;
+
+    VisibilitySums();
+    /// Everything 0, for receivers of that size.
+    void clear(const glm::ivec2& size);
+    /// Adds the batch to the sums of all receivers: one full-screen pass.
+    void add(const Receivers& receivers, const SkyMaps& maps, const Aabb& bounds, const SkyBatch& added);
+    /// The means of all that was added, of `directions` directions.
+    const TexturePair& resolve(int directions);
+    const TexturePair& resolved() const { return *resolved_; }
+    std::vector<Program*> programs();
+
+ private:
+    ProgramVariants add_;
+    Program resolve_;
+    FullscreenTriangle triangle_;
+    std::array<std::optional<TexturePair>, 2> sums_;  ///< [0]: the sums; [1]: those of the next pass
+    std::optional<TexturePair> resolved_;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,106 @@
+#include "chapters/11_bent_normals/irradiance_truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "chapters/09_ambient_occlusion/ambient_truth.h"
+#include "common/math/hemisphere.h"
+#include "common/math/sampling.h"
+#include "common/truth/truth_cache.h"
+
+namespace penumbra {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Seeds of the exact answer are not those of the estimate: it would agree with its own noise.
+constexpr std::uint32_t truthSeed = 0x7275u;
+
+TruthImage compute(const TruthRequest& request, const Sky& sky, const SkyDensity& density, int rays) {
+    const PrimaryHits primary = primaryHits(request.tracer, request.camera, request.size);
+    // Squared differences of the two halves, row by row: a sum of doubles in another order is another sum.
+    std::vector<double> squares(std::size_t(request.size.y));
+    const auto answer = [&](const Hit& hit, int x, int y, float* value) {
+        const std::uint32_t seed = hashSeed(std::uint32_t(x), std::uint32_t(y), truthSeed);
+        const auto half = [&](std::uint32_t i) {
+            return tracedIrradiance(request.tracer, hit, sky, density, rays / 2, hashSeed(seed, i));
+        };
+        const glm::dvec3 first = half(1), second = half(2);
+        squares[std::size_t(y)] += glm::dot(first - second, first - second) / 3.0;
+        const glm::vec3 E(0.5 * (first + second));
+        std::copy_n(&E.x, 3, value);
+        return true;
+    };
+    TruthImage truth = surfaceTruth(primary, 3, answer, request.progress);
+    const double pixels = std::accumulate(truth.mask.values.begin(), truth.mask.values.end(), 0.0);
+    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+    truth.quantity = "irradiance";
+    truth.method = fmt::format("ray traced, {} rays a pixel, standard error {:.1e}", rays,
+                               0.5 * std::sqrt(sum / std::max(1.0, pixels)));
+    truth.against = "sky";
+    return truth;
+}
+
+}  // namespace
+
+// [begin:traced]
+glm::dvec3 tracedIrradiance(const RayTracer& tracer, const Hit& from, const Sky& sky,
+                            const SkyDensity& density, int rays, std::uint32_t seed) {
+    const glm::dvec3& n = from.shadingNormal;
+    const glm::dmat3 worldFromNormal = frameAround(n);
+    const int byCosine = density.isBlack() ? rays : (rays + 1) / 2;
+    std::vector<ShadowRay> asked;
+    std::vector<glm::dvec3> arriving;
+    for (int i = 0; i < rays; ++i) {
+        const bool cosine = i < byCosine;
+        const glm::dvec2 u =
+            owenSobol(std::uint32_t(cosine ? i : i - byCosine), hashSeed(seed, std::uint32_t(cosine)));
+        const glm::dvec3 w = cosine ? worldFromNormal * cosineDirection(u) : density.direction(u);
+        const double facing = glm::dot(n, w);
+        if (facing <= 0.0 || glm::dot(from.geometricNormal, w) <= 0.0) continue;
+        // Rays per steradian, of either kind.
+        const double both = byCosine * facing / pi + (rays - byCosine) * density.at(w);
+        asked.push_back(ShadowRay::from(from, w, true));
+        arriving.push_back(sky.radiance(w) * (facing / both));
+    }
+    std::vector<std::uint8_t> blocked(asked.size());
+    tracer.occluded(asked, blocked);
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < asked.size(); ++i)
+        if (!blocked[i]) sum += arriving[i];
+    return sum;
+}
+// [end:traced]
+
+TruthImage irradianceTruth(const TruthRequest& request, const Sky& sky, int rays) {
+    const SkyDensity density(sampleSky([&](const glm::dvec3& w) { return sky.radiance(w); }));
+    ContentHash key;
+    key.text("irradiance by the sky's density, 1").geometry(request.scene).camera(request.camera);
+    key.number(std::int64_t(request.size.x)).number(std::int64_t(request.size.y)).number(std::int64_t(rays));
+    key.array(std::span<const double>(density.cells()));
+    return cachedTruth(key, [&] { return compute(request, sky, density, rays); });
+}
+
+TruthImage bentNormalTruth(const TruthRequest& request, const AmbientRays& rays) {
+    TruthImage truth = bentVectorTruth(request, rays);
+    for (std::size_t i = 0; i < truth.mask.values.size(); ++i) {
+        if (truth.mask.values[i] == 0.0f) continue;
+        float* texel = &truth.value.values[3 * i];
+        const glm::vec3 bent(texel[0], texel[1], texel[2]);
+        const float length = glm::length(bent);
+        truth.mask.values[i] = length > 0.0f ? 1.0f : 0.0f;
+        const glm::vec3 shown = 0.5f + 0.5f * bent / std::max(length, 1e-30f);
+        std::copy_n(&shown.x, 3, texel);
+    }
+    truth.quantity = "bent normal, as a colour";
+    return truth;
+}
+
+}  // namespace penumbra
