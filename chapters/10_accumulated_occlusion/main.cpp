@@ -43,7 +43,7 @@ class AccumulatedOcclusionChapter : public Chapter {
 
         // Pass 5: the picture, as chapter 09 draws it.
         const PassScope scope(frame.passTimer, "picture");
-        backdrop_->draw(frame, light_);
+        backdrop_->draw(frame, light_, frame.view == "color");
         draw(frame, textures);
         // [end:passes]
     }
