@@ -42,7 +42,7 @@ MUTATIONS = {
           "Hit raised = from; raised.position += 1e-3 * from.geometricNormal;\nasked.push_back(ShadowRay::from(raised,")]),
     "BakedUniformForCosine": (
         "chapters/09_ambient_occlusion/vertex_bake_rays.cpp", "ambient_bake_exactness", "*VerticesAlone*",
-        [("cosine_(rays.weighting == Weighting::cosine)", "cosine_(rays.count < 0)")]),
+        [("byCosine = asked.weighting == Weighting::cosine", "byCosine = asked.count < 0")]),
     "BakedRaysStartFarInside": (
         "chapters/09_ambient_occlusion/vertex_bake_points.cpp", "ambient_bake_exactness", "*VerticesAlone*",
         [("inside = 1e-3", "inside = 0.1")]),

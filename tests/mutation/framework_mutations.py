@@ -69,7 +69,7 @@ MUTATIONS = {
     "AnImageTestWithoutABoundPasses": (
         "tests/image/image_check.cpp", "image_check", "*MissingBounds*", [("if (verdicts.empty()) throw", "if (false) throw")]),
     "FilesCarryTheTimeOfDay": (
-        IMAGE + "image_file.cpp", "image", "*TwoWrites*", [('spec.attribute("DateTime", "");', "")]),
+        IMAGE + "oiio/oiio_codec.cpp", "image", "*TwoWrites*", [('spec.attribute("DateTime", "");', "")]),
     "WritingReplacesALink": (
         IMAGE + "file_write.cpp", "image", "*ALinkStaysALink*", [("return error ? file : target;", "return file;")]),
     # command line, window, report

@@ -8,6 +8,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+CODEC = "bin/penumbra_image_codec.so"
 BUILD = pathlib.Path(os.environ.get("PENUMBRA_BUILD", ROOT / "build" / "release"))
 COMPILER = os.environ.get("CXX", "c++")
 FLAGS = ["-std=c++20", "-O1", "-ffp-contract=off", f'-DPENUMBRA_SOURCE_DIR="{ROOT}"']
@@ -136,9 +137,17 @@ class ArchiveMutations(unittest.TestCase):
         subprocess.run([*words[:at], object_, "-Wl,-z,muldefs", *words[at:]], cwd=BUILD, check=True)
         return binary
 
-    def passes(self, binary, test, shaders=None):
-        environment = {**os.environ, **({"PENUMBRA_SHADERS": str(shaders)} if shaders else {})}
-        return passes(binary, f"--gtest_filter={test}", environment=environment)
+    def linkCodec(self, object_, commands):
+        """The library that programs load to read and write pictures; it has one object."""
+        line = next(part for command in commands for part in command.split("&&") if f" -o {CODEC}" in part)
+        library = self.folder / pathlib.Path(CODEC).name
+        words = [str(object_) if word.endswith("oiio_codec.cpp.o") else word
+                 for word in withOutput(shlex.split(line), library)]
+        subprocess.run(words, cwd=BUILD, check=True)
+        return library
+
+    def passes(self, binary, test, **environment):
+        return passes(binary, f"--gtest_filter={test}", environment={**os.environ, **environment})
 
     def check(self, name):
         file, unit, test, replacements = self.mutations[name]
@@ -151,7 +160,10 @@ class ArchiveMutations(unittest.TestCase):
         if file.startswith("shaders/"):
             shutil.copytree(ROOT / "shaders", self.folder / "shaders")
             (self.folder / file).write_text(text)
-            noticed = not self.passes(BUILD / "bin" / program, test, self.folder / "shaders")
+            passed = self.passes(BUILD / "bin" / program, test, PENUMBRA_SHADERS=str(self.folder / "shaders"))
+        elif file.startswith("common/image/oiio/"):
+            codec = self.linkCodec(self.compile(file, text, commands), commands)
+            passed = self.passes(BUILD / "bin" / program, test, PENUMBRA_IMAGE_CODEC=str(codec))
         else:
-            noticed = not self.passes(self.link(program, self.compile(file, text, commands), commands), test)
-        self.assertTrue(noticed, f"{name}: {program} --gtest_filter={test} does not notice")
+            passed = self.passes(self.link(program, self.compile(file, text, commands), commands), test)
+        self.assertFalse(passed, f"{name}: {program} --gtest_filter={test} does not notice")
