@@ -60,8 +60,7 @@ void Bake::findOpen() {
     forEachPoint(0.0, 0.02, [&](std::size_t i, std::int64_t&) {
         const BakePoint& point = points_.points[i];
         const bool noPlane = point.normal == glm::vec3(0.0f);  // a triangle without extent
-        open_[i] = noPlane || !horizon.anythingAbove(glm::dvec3(point.position), glm::dvec3(point.normal),
-                                                     settings_.rays.reach.range);
+        open_[i] = noPlane || !horizon.anythingAbove(points_, point, settings_.rays.reach.range);
     });
 }
 
