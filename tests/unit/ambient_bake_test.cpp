@@ -276,6 +276,38 @@ TEST(SharedRays, AreAsGoodAsSoManyRaysAloneOnASharpGullyToo) {
     }
 }
 
+TEST(SharedRays, WhereAllIsBlackSoIsWhatNeighboursSay) {
+    // On a round wall the places say what the normals say, and do not determine the function: what rounding
+    // leaves of the equations must not be taken for knowledge.
+    std::mt19937_64 random(12);
+    std::uniform_real_distribution<double> part(0.0, 1.0);
+    int unclear = 0;
+    for (int round = 0; round < 300; ++round) {
+        const int sides = 12 + int(random() % 60);
+        const double radius = 0.1 + part(random), length = 2.0 * part(random), start = part(random);
+        std::vector<glm::dvec3> corners;
+        std::vector<std::uint32_t> indices;
+        for (std::uint32_t i = 0; i < std::uint32_t(sides); ++i) {
+            const double angle = start + 2.0 * std::numbers::pi * i / sides;
+            for (const double x : {0.0, length})
+                corners.emplace_back(x, radius * std::cos(angle), radius * std::sin(angle));
+            const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % std::uint32_t(sides));
+            indices.insert(indices.end(), {a, b, a + 1, b, b + 1, a + 1});
+        }
+        Scene scene = emptyScene();
+        addPart(scene, corners, indices, scaledAndMoved(1.0, part(random)));
+        const BakePoints points = vertexPoints(scene);
+        const PointNeighbours neighbours = vertexNeighbours(scene, points);
+        const std::vector<OwnEstimate> black(points.points.size());
+        const SharedRays sharing(points, neighbours, black);
+        for (std::uint32_t i = 0; i < black.size(); ++i) {
+            const NeighbourEstimate estimate = sharing.at(i);
+            unclear += !(estimate.value == glm::vec4(0.0f)) || !(estimate.variance > 0.0f);
+        }
+    }
+    EXPECT_EQ(unclear, 0);
+}
+
 TEST(SharedRays, ThresholdAndMeanOfTwoEstimates) {
     EXPECT_FLOAT_EQ(thresholdOfMean({4.0f, 1.0f, 9.0f}, 2.0), 2.5f);  // (1 + 2.5 + 2.5) / 3
     EXPECT_TRUE(std::isinf(thresholdOfMean({1.0f, 2.0f}, 5.0)));
