@@ -29,6 +29,10 @@ constexpr float sameSide = 0.75f;
 constexpr float halvesOverNoise = 2.2f;
 constexpr float leastNoise = 1e-8f;
 
+/// What rounding leaves of a coefficient that the neighbours do not determine, as on a round wall, where the
+/// places say what the normals say: sums over 32 neighbours of up to 1, in float.
+constexpr float rounding = 1e-5f;
+
 /// Beyond this multiple of the noise the neighbours' differences are not noise. 1 takes every second noise
 /// for more than that, and wastes rays; with 1.4 the error on a sharp gully is a sixth larger.
 constexpr float explained = 1.0f;
@@ -65,7 +69,7 @@ PENUMBRA_WIDE void eliminate(float noise, Equations& equations) {
     auto& [rows, squares] = equations;
     for (std::size_t a = 0; a < terms; ++a) rows[a][a] += noise / (believed[a] * believed[a]);
     for (std::size_t a = 0; a < terms; ++a) {
-        const float inverse = 1.0f / rows[a][a];
+        const float inverse = 1.0f / std::max(rounding, rows[a][a]);
         squares -= rows[a][terms + 3] * rows[a][terms + 3] * inverse;
         for (std::size_t b = a + 1; b < terms; ++b) {
             const float factor = rows[b][a] * inverse;
@@ -177,8 +181,9 @@ NeighbourEstimate SharedRays::at(std::uint32_t i) const {
     eliminate(noise, equations);
     const Row& constant = equations.rows[terms - 1];
     // Without the point itself, whose own value is then weighed against it: the usual leave-one-out identity,
-    // with the point's share in the constant.
-    const float share = std::min(0.99f, 1.0f / constant[terms - 1]);
+    // with the point's share in the constant. If that is nearly all of it, the others do not know.
+    const float share = 1.0f / constant[terms - 1];
+    if (!(share > 0.0f && share < 0.99f)) return {own_[i].value, infinity, noise};
     const glm::vec4 change(constant[terms], constant[terms + 1], constant[terms + 2], constant[terms + 3]);
     const float others = share / (1.0f - share);
     const float unexplained =

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chapters/09_ambient_occlusion/vertex_bake_points.h"
 #include "common/truth/shadow_packet.h"
 #include "common/truth/surface_hit.h"
 
@@ -33,7 +32,7 @@ struct Horizon::Query {
 };
 
 Horizon::Horizon(const Scene& scene)
-    : scene_(scene), tolerance_(8.0 * 0x1p-23 * largestCoordinate(scene.bounds)) {
+    : scene_(scene), reach_(largestCoordinate(scene.bounds)), tolerance_(tangentTolerance(reach_)) {
     sortTriangles();
     chooseScouts();
     std::vector<Aabb> boxes((triangles_.size() + fan - 1) / fan);
@@ -66,11 +65,13 @@ void Horizon::chooseScouts() {
         scouts_.push_back(scene_.positions[scene_.indices[3 * std::size_t(triangles_[i])]]);
 }
 
-bool Horizon::anythingAbove(const glm::dvec3& position, const glm::dvec3& normal, double range) const {
+bool Horizon::anythingAbove(const BakePoints& points, const BakePoint& point, double range) const {
+    const glm::dvec3 position(point.position), normal(point.normal);
     if (std::isinf(range))
         for (const glm::vec3& scout : scouts_)
             if (glm::dot(normal, glm::dvec3(scout) - position) > tolerance_) return true;
-    const Query query{position, normal, range * range};
+    const double fromPoint = range + startDistance(scene_, points, point, reach_);
+    const Query query{position, normal, fromPoint * fromPoint};
     const std::size_t top = levels_.size() - 1;
     for (std::size_t box = 0; box < levels_[top].size(); ++box)
         if (above(query, top, box)) return true;

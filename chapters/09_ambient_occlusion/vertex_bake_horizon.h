@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "chapters/09_ambient_occlusion/vertex_bake_points.h"
 #include "common/math/aabb.h"
 #include "common/scene/scene.h"
 
@@ -16,10 +17,10 @@ class Horizon {
     /// and so on.
     explicit Horizon(const Scene& scene);
 
-    /// Does a triangle within `range` metres of `position` reach above the plane through `position` with
-    /// `normal` (unit)? By more than 8 float ulps of the scene's largest coordinate, that is: rays begin 16
-    /// above (PointFan), and pass over what is lower.
-    bool anythingAbove(const glm::dvec3& position, const glm::dvec3& normal, double range) const;
+    /// Does a triangle within `range` metres of where a ray of `point` begins (PointFan) reach above the
+    /// point's tangent plane, by more than tangentTolerance? If not, no ray is blocked. `points`: of the same
+    /// scene.
+    bool anythingAbove(const BakePoints& points, const BakePoint& point, double range) const;
 
     std::size_t bytes() const;
 
@@ -34,7 +35,7 @@ class Horizon {
     std::vector<std::uint32_t> triangles_;   ///< in Morton order of their centroids
     std::vector<glm::vec3> scouts_;          ///< some vertices: most points find one of them above
     std::vector<std::vector<Aabb>> levels_;  ///< the lowest around triangles; the highest has at most 16
-    double tolerance_ = 0.0;                 ///< metres
+    double reach_, tolerance_;               ///< metres
 };
 
 }  // namespace penumbra

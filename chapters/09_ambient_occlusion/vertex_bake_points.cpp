@@ -60,6 +60,15 @@ BakePoints sortedAndMerged(const Asked& asked, const Aabb& bounds) {
     return result;
 }
 
+// How far into a triangle rays begin, as a part of the way to its centroid: enough to be safely inside, and
+// too little to see anything else.
+constexpr double inside = 1e-3;
+
+/// How far above it, metres.
+double liftOf(double reach) {
+    return 16.0 * 0x1p-23 * reach;
+}
+
 /// The angle of (x, y) without a root or an arc tangent, and growing as it does: -1 to 3 once around.
 float diamondAngle(float x, float y) {
     const float size = std::abs(x) + std::abs(y);
@@ -135,36 +144,56 @@ BakePoints spreadPoints(const Scene& scene, int perTriangle, std::uint32_t seed)
     return result;
 }
 
+double tangentTolerance(double reach) {
+    return 0.5 * liftOf(reach);
+}
+
+double startDistance(const Scene& scene, const BakePoints& points, const BakePoint& point, double reach) {
+    double farthest = 0.0;
+    for (const std::uint32_t t : points.trianglesOf(point))
+        for (const glm::dvec3& corner : cornersOf(scene, t))
+            farthest = std::max(farthest, glm::distance(corner, glm::dvec3(point.position)));
+    return 2.0 * inside * farthest + 4.0 * liftOf(reach);  // twice: as far down at most, and up again
+}
+
+/// One of the point's triangles, and where around the point it lies.
+struct PointFan::Wedge {
+    float start, end;  ///< diamond angles
+    Sector sector;
+};
+
 PointFan::PointFan(const Scene& scene, const BakePoints& points, const BakePoint& point, double reach)
     : worldFromLocal_(frameAround(glm::normalize(glm::dvec3(point.normal)))) {
-    const double lift = 16.0 * 0x1p-23 * reach;
-    addSectors(scene, points, point, lift);
+    std::array<Wedge, most> wedges;
+    addSectors({wedges.data(), findWedges(scene, points, point, reach, wedges)});
     if (count_ == 0)
-        sectors_[count_++] = {-1.0f, point.normal,
-                              glm::vec3(glm::dvec3(point.position) + lift * glm::dvec3(point.normal))};
+        sectors_[count_++] = {
+            -1.0f, glm::vec3(0.0f),
+            glm::vec3(glm::dvec3(point.position) + liftOf(reach) * glm::dvec3(point.normal))};
     starts_.fill(std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < count_; ++i) starts_[i] = sectors_[i].start;
 }
 
-void PointFan::addSectors(const Scene& scene, const BakePoints& points, const BakePoint& point, double lift) {
-    // How far into the triangle, as a part of the way to its centroid: enough to be safely inside, and too
-    // little to see anything else.
-    constexpr double inside = 1e-3;
-    struct Wedge {
-        float start, end;
-        Sector sector;
-    };
-    std::array<Wedge, most> wedges;
+/// In the order of their starts; returns how many they are.
+std::size_t PointFan::findWedges(const Scene& scene, const BakePoints& points, const BakePoint& point,
+                                 double reach, std::span<Wedge> wedges) const {
+    const glm::dvec3 position(point.position), pointNormal(point.normal);
     std::size_t found = 0;
     for (const std::uint32_t t : points.trianglesOf(point)) {
         const auto corners = cornersOf(scene, t);
-        const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const double length = glm::length(normal);
-        if (!(glm::dot(normal, glm::dvec3(point.normal)) > 0.0) || found == most) continue;
-        const glm::dvec3 position(point.position), centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
+        const glm::dvec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        if (!(glm::dot(cross, pointNormal) > 0.0) || found == most) continue;
+        const glm::dvec3 normal = glm::normalize(cross);
         Wedge& wedge = wedges[found++];
-        wedge.sector.normal = glm::vec3(normal / length);
-        wedge.sector.origin = glm::vec3(position + inside * (centroid - position) + lift / length * normal);
+        const bool rises = std::ranges::any_of(corners, [&](const glm::dvec3& corner) {
+            return glm::dot(pointNormal, corner - position) > tangentTolerance(reach);
+        });
+        wedge.sector.normal = rises ? glm::vec3(normal) : glm::vec3(0.0f);
+        const glm::dvec3 centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
+        glm::dvec3 start = inside * (centroid - position) + liftOf(reach) * normal;
+        // From below the tangent plane it would meet what only just reaches up to it.
+        start += std::max(0.0, liftOf(reach) - glm::dot(pointNormal, start)) * pointNormal;
+        wedge.sector.origin = glm::vec3(position + start);
         if (!point.corner) {
             wedge.start = -1.0f, wedge.end = 3.0f;
             continue;
@@ -177,19 +206,25 @@ void PointFan::addSectors(const Scene& scene, const BakePoints& points, const Ba
         wedge.end = diamondAngle(toPrevious.x, toPrevious.y);
         if (wedge.end < wedge.start) wedge.end += 4.0f;
     }
-    std::sort(wedges.begin(), wedges.begin() + std::ptrdiff_t(found),
-              [](const Wedge& a, const Wedge& b) { return a.start < b.start; });
-    for (std::size_t i = 0; i < found; ++i) {
-        sectors_[count_] = wedges[i].sector;
-        sectors_[count_++].start = wedges[i].start;
-        // A gap, at the border of a surface or a crease, is halved between the triangles on either side.
-        const bool last = i + 1 == found;
+    std::ranges::sort(wedges.first(found), {}, &Wedge::start);
+    return found;
+}
+
+void PointFan::addSectors(std::span<const Wedge> wedges) {
+    const auto addGap = [&](float start, const Wedge& beside) {
+        sectors_[count_++] = {start >= 3.0f ? start - 4.0f : start, glm::vec3(0.0f), beside.sector.origin};
+    };
+    for (std::size_t i = 0; i < wedges.size(); ++i) {
+        const Wedge& wedge = wedges[i];
+        sectors_[count_] = wedge.sector;
+        sectors_[count_++].start = wedge.start;
+        const bool last = i + 1 == wedges.size();
         const Wedge& next = wedges[last ? 0 : i + 1];
         const float nextStart = last ? next.start + 4.0f : next.start;
-        if (nextStart - wedges[i].end < 1e-5f) continue;
-        float middle = 0.5f * (wedges[i].end + nextStart);
-        sectors_[count_] = next.sector;
-        sectors_[count_++].start = middle >= 3.0f ? middle - 4.0f : middle;
+        if (nextStart - wedge.end < 1e-5f) continue;
+        // A gap: half of its rays begin over the triangle on one side, half over that on the other.
+        addGap(wedge.end, wedge);
+        addGap(0.5f * (wedge.end + nextStart), next);
     }
     std::sort(sectors_.begin(), sectors_.begin() + std::ptrdiff_t(count_),
               [](const Sector& a, const Sector& b) { return a.start < b.start; });

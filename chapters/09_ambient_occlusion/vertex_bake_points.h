@@ -46,12 +46,22 @@ BakePoints trianglePoints(const Scene& scene);
 /// those of triangle t are points [t perTriangle, (t + 1) perTriangle), in no other order.
 BakePoints spreadPoints(const Scene& scene, int perTriangle, std::uint32_t seed);
 
+/// What is no higher above a point's tangent plane hides nothing from it, metres: 8 float ulps of `reach`,
+/// the scene's largest coordinate. Rays begin at least 16 above.
+double tangentTolerance(double reach);
+/// At most so far from the point, in metres, do its rays begin (PointFan).
+double startDistance(const Scene& scene, const BakePoints& points, const BakePoint& point, double reach);
+
 /// What a point's own triangles do to its rays. From a vertex, rays may pass under one of the triangles that
 /// meet there, and no offset along one normal is right for all of them. So the circle around the point is cut
 /// into sectors, one for each triangle; a ray that goes out over a triangle begins a little inside of it,
-/// lifted by 16 float ulps of the scene's largest coordinate, and is blocked if it goes below it. A convex
-/// surface then never shadows itself, at any scale, and a crease shadows itself exactly. With one offset
-/// along the vertex normal, one sees dark vertices on coarse balls, and light that leaks in along creases.
+/// 16 float ulps of the scene's largest coordinate above both it and the tangent plane, and is blocked if it
+/// goes below it. A convex surface then never shadows itself, at any scale, and a crease shadows itself
+/// exactly. With one offset along the vertex normal, one sees dark vertices on coarse balls, and light that
+/// leaks in along creases. Two kinds of rays are never blocked here: over a triangle that does not rise above
+/// the tangent plane, which Horizon calls nothing as well; and between triangles, beyond the border of the
+/// surface or where another normal begins. If the plane of the triangle went on there, one would see dark
+/// seams on round things whose normals are split.
 class PointFan {
  public:
     /// `reach`: largest coordinate of the scene.
@@ -59,27 +69,31 @@ class PointFan {
 
     /// Frame around the point's normal: columns tangent, bitangent, normal.
     const glm::mat3& worldFromLocal() const { return worldFromLocal_; }
-    /// Where a ray in this direction (in the local frame, z > 0) begins; nullptr: it goes below the surface.
+    /// Where a ray in this direction (in the local frame, z > 0) begins; nullptr: it goes below the triangle
+    /// over which it goes out.
     const glm::vec3* origin(const glm::vec3& local, const glm::vec3& world) const {
         const Sector& sector = sectors_[sectorOf(local)];
-        return glm::dot(sector.normal, world) > 0.0f ? &sector.origin : nullptr;
+        return glm::dot(sector.normal, world) >= 0.0f ? &sector.origin : nullptr;
     }
 
  private:
     static constexpr std::size_t together = 8;
     static constexpr std::size_t most = 32;  ///< a fan of more triangles is thinned
     struct Sector {
-        float start = 0.0f;  ///< diamond angle, see .cpp
-        glm::vec3 normal{0.0f};
+        float start = 0.0f;      ///< diamond angle, see .cpp
+        glm::vec3 normal{0.0f};  ///< 0: nothing below
         glm::vec3 origin{0.0f};
     };
+    struct Wedge;
 
     std::size_t sectorOf(const glm::vec3& local) const;
-    void addSectors(const Scene& scene, const BakePoints& points, const BakePoint& point, double lift);
+    std::size_t findWedges(const Scene& scene, const BakePoints& points, const BakePoint& point, double reach,
+                           std::span<Wedge> wedges) const;
+    void addSectors(std::span<const Wedge> wedges);
 
     glm::mat3 worldFromLocal_;
-    std::array<Sector, 2 * most> sectors_;
-    std::array<float, 2 * most> starts_;  ///< of the sectors, and then infinity
+    std::array<Sector, 3 * most> sectors_;
+    std::array<float, 3 * most> starts_;  ///< of the sectors, and then infinity
     std::size_t count_ = 0;
 };
 

@@ -91,7 +91,7 @@ void BitsBake::bakePoint(std::size_t index, std::vector<BundleRay>& rays, std::v
         asked.push_back(l);
     }
     std::vector<std::uint8_t> blocked(rays.size(), 0);
-    if (horizon_.anythingAbove(glm::dvec3(point.position), glm::dvec3(point.normal), range_)) {
+    if (horizon_.anythingAbove(points_, point, range_)) {
         bundle_.blocked(rays, float(range_), blocked);
         rays_ += std::int64_t(rays.size());
     } else {
@@ -155,7 +155,7 @@ class Keeper {
 
 std::string keyOf(const Scene& scene, int directions, double range) {
     return ContentHash()
-        .text("visibility bits 1")
+        .text("visibility bits 2")
         .geometry(scene)
         .number(std::int64_t(directions))
         .number(range)

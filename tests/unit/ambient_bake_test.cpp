@@ -6,6 +6,7 @@
 #include <random>
 
 #include "chapters/09_ambient_occlusion/bake_file.h"
+#include "chapters/09_ambient_occlusion/baked_ambient.h"
 #include "chapters/09_ambient_occlusion/least_squares.h"
 #include "chapters/09_ambient_occlusion/shared_rays.h"
 #include "chapters/09_ambient_occlusion/vertex_bake.h"
@@ -174,6 +175,63 @@ TEST(Bake, NothingAboveThePlaneNeedsNoRay) {
         EXPECT_EQ(all.values[i].visibility, skipping.values[i].visibility) << i;
 }
 
+/// The same values, to the last bit, whether the skip is on or off; returns how many points it skips.
+std::int64_t expectSkipChangesNothing(const Scene& scene, BakeSettings settings) {
+    const RayBundle bundle(scene);
+    const AmbientBake skipping = bakeVertices(scene, bundle, settings);
+    settings.skip = false;
+    const AmbientBake all = bakeVertices(scene, bundle, settings);
+    int differing = 0;
+    for (std::size_t i = 0; i < all.values.size(); ++i)
+        differing += all.values[i].visibility != skipping.values[i].visibility ||
+                     all.values[i].bent != skipping.values[i].bent;
+    EXPECT_EQ(differing, 0) << "of " << all.values.size();
+    return skipping.work.skipped;
+}
+
+TEST(Bake, SplitNormalsDoNotDarkenAConvexSurface) {
+    // As at the rims of a model's cylinders: each vertex has a part of the circle only, and a normal that is
+    // not its triangles'.
+    Scene ball = emptyScene();
+    addSphere(ball, 1, scaledAndMoved(1.0, 0.0));
+    Scene scene = withoutSharedVertices(ball);
+    std::mt19937_64 random(11);
+    for (glm::vec3& n : scene.normals)
+        n = glm::vec3(glm::normalize(glm::dvec3(n) + 0.01 * randomDirection(random)));
+    for (const bool share : {false, true}) {
+        BakeSettings settings = shared(256);
+        settings.share = share;
+        EXPECT_EQ(expectSkipChangesNothing(scene, settings), std::int64_t(scene.positions.size()));
+    }
+}
+
+TEST(Bake, FromARidgeTheNextOfTheSameHeightIsNotAbove) {
+    // By solid angle: many rays go out near the horizon.
+    const Scene scene =
+        heightField(32, [](double u, double) { return int(32.5 + 16.0 * u) % 2 ? 0.5 : 0.0; });
+    BakeSettings settings = alone(512);
+    settings.rays.weighting = Weighting::uniform;
+    EXPECT_GE(expectSkipChangesNothing(scene, settings), 16 * 33);
+}
+
+TEST(Bake, WhatIsJustBeyondTheRangeIsBeyondItForEveryRay) {
+    // A floor of four triangles and walls around it: the rays of the middle begin a little nearer to them.
+    const std::vector<glm::dvec3> points = {{0, 0, 0}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, {-1, 0, 1}};
+    Scene scene = emptyScene();
+    addPart(scene, points, {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, scaledAndMoved(1.0, 0.0));
+    const glm::dvec3 up(0.0, 0.5, 0.0);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec3 &a = points[i + 1], &b = points[(i + 1) % 4 + 1];
+        addQuad(scene, a, a + up, b + up, b);
+    }
+    BakeSettings settings = alone(8192);
+    settings.rays.weighting = Weighting::uniform;
+    settings.rays.reach.range = 1.0 - 1e-4;
+    EXPECT_EQ(expectSkipChangesNothing(scene, settings), 0);
+    settings.rays.reach.range = 1.0 - 1e-2;
+    EXPECT_EQ(expectSkipChangesNothing(scene, settings), 1);
+}
+
 TEST(Bake, ARoomIsBlackWithoutALimitAndOpenInTheMiddleOfItsWallsWithOne) {
     const Scene scene = room(8);
     BakeSettings settings = shared(256);
@@ -216,6 +274,38 @@ TEST(SharedRays, AreAsGoodAsSoManyRaysAloneOnASharpGullyToo) {
             EXPECT_LT(rmse(ours.values, plain.values), 0.012);
         }
     }
+}
+
+TEST(SharedRays, WhereAllIsBlackSoIsWhatNeighboursSay) {
+    // On a round wall the places say what the normals say, and do not determine the function: what rounding
+    // leaves of the equations must not be taken for knowledge.
+    std::mt19937_64 random(12);
+    std::uniform_real_distribution<double> part(0.0, 1.0);
+    int unclear = 0;
+    for (int round = 0; round < 300; ++round) {
+        const int sides = 12 + int(random() % 60);
+        const double radius = 0.1 + part(random), length = 2.0 * part(random), start = part(random);
+        std::vector<glm::dvec3> corners;
+        std::vector<std::uint32_t> indices;
+        for (std::uint32_t i = 0; i < std::uint32_t(sides); ++i) {
+            const double angle = start + 2.0 * std::numbers::pi * i / sides;
+            for (const double x : {0.0, length})
+                corners.emplace_back(x, radius * std::cos(angle), radius * std::sin(angle));
+            const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % std::uint32_t(sides));
+            indices.insert(indices.end(), {a, b, a + 1, b, b + 1, a + 1});
+        }
+        Scene scene = emptyScene();
+        addPart(scene, corners, indices, scaledAndMoved(1.0, part(random)));
+        const BakePoints points = vertexPoints(scene);
+        const PointNeighbours neighbours = vertexNeighbours(scene, points);
+        const std::vector<OwnEstimate> black(points.points.size());
+        const SharedRays sharing(points, neighbours, black);
+        for (std::uint32_t i = 0; i < black.size(); ++i) {
+            const NeighbourEstimate estimate = sharing.at(i);
+            unclear += !(estimate.value == glm::vec4(0.0f)) || !(estimate.variance > 0.0f);
+        }
+    }
+    EXPECT_EQ(unclear, 0);
 }
 
 TEST(SharedRays, ThresholdAndMeanOfTwoEstimates) {
