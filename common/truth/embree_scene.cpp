@@ -10,10 +10,8 @@
 #include <bit>
 #include <iterator>
 #include <limits>
-#include <string>
 #include <type_traits>
 
-#include "common/error.h"
 #include "common/truth/segment_test.h"
 #include "common/truth/surface_hit.h"
 
@@ -179,48 +177,17 @@ std::uint32_t tracePacket(RTCSceneTy* scene, unsigned count, const ShadowPacket&
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const Scene& scene) : scene_(scene), device_(rtcNewDevice(nullptr)) {
-    if (!device_)
-        throw Error("Embree does not start (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
-    embree_ = rtcNewScene(device_);
-    rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(embree_, RTC_BUILD_QUALITY_HIGH);
-    copyTriangles();
-    rtcCommitScene(embree_);
-    if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE) {
-        rtcReleaseScene(embree_);
-        rtcReleaseDevice(device_);
-        throw Error("Embree cannot build scene '" + scene.name + "' (" +
-                    std::to_string(scene.triangleCount()) + " triangles): error " + std::to_string(error) +
-                    "; is memory short?");
-    }
+EmbreeScene::EmbreeScene(const Scene& scene) : scene_(scene) {
+    rtcSetSceneFlags(embree_.scene(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(embree_.scene(), RTC_BUILD_QUALITY_HIGH);
+    embree_.build(scene, [](RTCGeometry geometry) {
+        rtcSetGeometryIntersectFilterFunction(geometry, ignorePartFilter);
+        rtcSetGeometryOccludedFilterFunction(geometry, exactShadowFilter);
+    });
     heights_.reserve(scene.triangleCount());
     const double reach = largestCoordinate(scene.bounds);
     for (std::size_t t = 0; t < scene.triangleCount(); ++t)
         heights_.push_back(decisiveHeight(cornersOf(scene, std::uint32_t(t)), reach));
-}
-
-EmbreeScene::~EmbreeScene() {
-    rtcReleaseScene(embree_);
-    rtcReleaseDevice(device_);
-}
-
-void EmbreeScene::copyTriangles() {
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree keeps its own copy: it reads 16 bytes at a time, past the end of a tight array of vec3.
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             sizeof(glm::vec3), scene_.positions.size());
-    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
-                                            scene_.triangleCount());
-    if (vertices && indices) {
-        std::copy(scene_.positions.begin(), scene_.positions.end(), static_cast<glm::vec3*>(vertices));
-        std::copy(scene_.indices.begin(), scene_.indices.end(), static_cast<std::uint32_t*>(indices));
-        rtcSetGeometryIntersectFilterFunction(geometry, ignorePartFilter);
-        rtcSetGeometryOccludedFilterFunction(geometry, exactShadowFilter);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(embree_, geometry);
-    }
-    rtcReleaseGeometry(geometry);
 }
 
 std::optional<FloatHit> EmbreeScene::nearest(const Ray& ray, const IgnoredTriangles& ignored) const {
@@ -236,9 +203,9 @@ std::optional<FloatHit> EmbreeScene::nearest(const Ray& ray, const IgnoredTriang
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.context = &query.embree;
-    rtcIntersect1(embree_, &found, &arguments);
+    rtcIntersect1(embree_.scene(), &found, &arguments);
 #else
-    rtcIntersect1(embree_, &query.embree, &found);
+    rtcIntersect1(embree_.scene(), &query.embree, &found);
 #endif
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return FloatHit{found.hit.primID, {found.hit.u, found.hit.v}};
@@ -251,8 +218,8 @@ PacketAnswer EmbreeScene::occluded(std::span<const ShadowRay> rays, const Shadow
     query.rays = rays.data();
     query.packet = &packet;
     const std::uint32_t blocked = rays.size() == 1
-                                      ? traceOne(embree_, packet, query)
-                                      : tracePacket(embree_, unsigned(rays.size()), packet, query);
+                                      ? traceOne(embree_.scene(), packet, query)
+                                      : tracePacket(embree_.scene(), unsigned(rays.size()), packet, query);
     return {blocked, query.doubtful & ~blocked};
 }
 

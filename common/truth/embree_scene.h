@@ -9,11 +9,9 @@
 
 #include "common/scene/camera.h"
 #include "common/scene/scene.h"
+#include "common/truth/embree_hierarchy.h"
 #include "common/truth/ray_tracer.h"
 #include "common/truth/shadow_packet.h"
-
-struct RTCDeviceTy;
-struct RTCSceneTy;
 
 namespace penumbra {
 
@@ -44,9 +42,6 @@ class EmbreeScene {
  public:
     /// Throws Error if Embree does not start, or memory is short. Keeps a reference to `scene`.
     explicit EmbreeScene(const Scene& scene);
-    ~EmbreeScene();
-    EmbreeScene(const EmbreeScene&) = delete;
-    EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     std::optional<FloatHit> nearest(const Ray& ray, const IgnoredTriangles& ignored) const;
 
@@ -55,11 +50,8 @@ class EmbreeScene {
                           const IgnoredTriangles& ignored) const;
 
  private:
-    void copyTriangles();
-
     const Scene& scene_;
-    RTCDeviceTy* device_ = nullptr;
-    RTCSceneTy* embree_ = nullptr;
+    EmbreeHierarchy embree_;
     std::vector<float> heights_;  ///< decisiveHeight of each triangle
 };
 

@@ -8,21 +8,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <string>
 
-#include "common/error.h"
+#include "common/truth/embree_hierarchy.h"
 
 namespace penumbra {
 
 struct RayBundle::State {
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-    std::atomic<std::int64_t> bytes{0};
-
-    ~State() {
-        if (scene) rtcReleaseScene(scene);
-        if (device) rtcReleaseDevice(device);
-    }
+    std::atomic<std::int64_t> bytes{0};  // before the hierarchy, which counts down when it goes
+    EmbreeHierarchy hierarchy;
 };
 
 namespace {
@@ -30,22 +23,6 @@ namespace {
 bool countMemory(void* counter, ssize_t bytes, bool) {
     static_cast<std::atomic<std::int64_t>*>(counter)->fetch_add(bytes, std::memory_order_relaxed);
     return true;
-}
-
-/// Embree keeps its own copy: it reads 16 bytes at a time, past the end of a tight array of vec3.
-void attachTriangles(RTCDevice device, RTCScene scene, const Scene& triangles) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             sizeof(glm::vec3), triangles.positions.size());
-    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
-                                            triangles.triangleCount());
-    if (vertices && indices) {
-        std::ranges::copy(triangles.positions, static_cast<glm::vec3*>(vertices));
-        std::ranges::copy(triangles.indices, static_cast<std::uint32_t*>(indices));
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
-    }
-    rtcReleaseGeometry(geometry);
 }
 
 constexpr std::size_t together = 8;
@@ -76,17 +53,8 @@ void trace(const int* valid, RTCScene scene, RTCRay8& packet) {
 }  // namespace
 
 RayBundle::RayBundle(const Scene& scene) : state_(std::make_unique<State>()) {
-    state_->device = rtcNewDevice(nullptr);
-    if (!state_->device)
-        throw Error("Embree does not start (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
-    rtcSetDeviceMemoryMonitorFunction(state_->device, countMemory, &state_->bytes);
-    state_->scene = rtcNewScene(state_->device);
-    attachTriangles(state_->device, state_->scene, scene);
-    rtcCommitScene(state_->scene);
-    if (const RTCError error = rtcGetDeviceError(state_->device); error != RTC_ERROR_NONE)
-        throw Error("Embree cannot build scene '" + scene.name + "' (" +
-                    std::to_string(scene.triangleCount()) + " triangles): error " + std::to_string(error) +
-                    "; is memory short?");
+    rtcSetDeviceMemoryMonitorFunction(state_->hierarchy.device(), countMemory, &state_->bytes);
+    state_->hierarchy.build(scene);
 }
 
 RayBundle::~RayBundle() = default;
@@ -97,7 +65,7 @@ void RayBundle::blocked(std::span<const BundleRay> rays, float range, std::span<
     for (std::size_t first = 0; first < rays.size(); first += together) {
         const std::size_t count = std::min(together, rays.size() - first);
         pack(rays.data() + first, count, range, packet, valid);
-        trace(valid, state_->scene, packet);
+        trace(valid, state_->hierarchy.scene(), packet);
         for (std::size_t i = 0; i < count; ++i) blocked[first + i] = packet.tfar[i] < 0.0f ? 1 : 0;
     }
 }
@@ -110,11 +78,11 @@ float RayBundle::distance(const BundleRay& ray, float range) const {
     found.ray.mask = 0xffffffffu;
     found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(state_->scene, &found);
+    rtcIntersect1(state_->hierarchy.scene(), &found);
 #else
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1(state_->scene, &context, &found);
+    rtcIntersect1(state_->hierarchy.scene(), &context, &found);
 #endif
     return found.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
                                                        : found.ray.tfar;

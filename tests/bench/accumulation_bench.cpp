@@ -15,12 +15,11 @@
 #include "chapters/08_accumulation/main.cpp"
 #undef main
 
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <functional>
 
 #include "common/app/report.h"
+#include "tests/bench/clocks.h"
 #include "tests/image/chapter_harness.h"
 
 namespace {
@@ -35,12 +34,10 @@ struct Way {
     double rmse = 0.0;
 
     FloatImage timed() {
-        const std::clock_t before = std::clock();
-        const auto start = std::chrono::steady_clock::now();
+        const double before = cpuTime(), start = wallTime();
         FloatImage picture = draw();
-        wall.push_back(
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-        cpu.push_back(1e3 * double(std::clock() - before) / CLOCKS_PER_SEC);
+        wall.push_back(wallTime() - start);
+        cpu.push_back(cpuTime() - before);
         return picture;
     }
 };

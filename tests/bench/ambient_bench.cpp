@@ -4,20 +4,12 @@
 //
 //     ambient_bench [RUNS]        (5) CPU time of all threads, the least of RUNS interleaved runs
 //     ambient_bench million       instead: bits of 1 000 000 vertices x 256 directions, time and memory
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -31,6 +23,8 @@
 #include "common/math/sampling.h"
 #include "common/scene/gltf_loader.h"
 #include "common/truth/shadow_packet.h"
+#include "tests/bench/clocks.h"
+#include "tests/unit/embree_triangles.h"
 #include "tests/unit/test_meshes.h"
 
 namespace penumbra {
@@ -40,9 +34,7 @@ constexpr double wantedRmse = 0.0065;
 constexpr int pointsAtOnce = 256;
 
 double cpuSeconds() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+    return 1e-3 * cpuTime();
 }
 
 Scene terrain(int cells) {
@@ -92,25 +84,7 @@ Scene objFile(const std::filesystem::path& file) {
 /// Embree with its default flags, which are its fastest.
 class PlainEmbree {
  public:
-    explicit PlainEmbree(const Scene& s) {
-        RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        std::copy(s.positions.begin(), s.positions.end(),
-                  static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-                      g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, s.positions.size())));
-        std::copy(s.indices.begin(), s.indices.end(),
-                  static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-                      g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, s.triangleCount())));
-        rtcCommitGeometry(g);
-        rtcAttachGeometry(scene_, g);
-        rtcReleaseGeometry(g);
-        rtcCommitScene(scene_);
-    }
-    ~PlainEmbree() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    PlainEmbree(const PlainEmbree&) = delete;
-    PlainEmbree& operator=(const PlainEmbree&) = delete;
+    explicit PlainEmbree(const Scene& s) : triangles_(s, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM) {}
 
     bool occluded(const glm::vec3& o, const glm::vec3& d) const {
         RTCRay ray{};
@@ -119,18 +93,17 @@ class PlainEmbree {
         ray.tfar = std::numeric_limits<float>::infinity();
         ray.mask = 0xffffffffu;
 #if RTC_VERSION_MAJOR >= 4
-        rtcOccluded1(scene_, &ray);
+        rtcOccluded1(triangles_.scene(), &ray);
 #else
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        rtcOccluded1(scene_, &context, &ray);
+        rtcOccluded1(triangles_.scene(), &context, &ray);
 #endif
         return ray.tfar < 0.0f;
     }
 
  private:
-    RTCDevice device_ = rtcNewDevice(nullptr);
-    RTCScene scene_ = rtcNewScene(device_);
+    EmbreeTriangles triangles_;
 };
 
 float radicalInverse(std::uint32_t i) {
@@ -280,17 +253,15 @@ void relighting(const Scene& scene) {
     const auto radiance = skyRadiance(Sky::overcast(glm::dvec3(1.0)), baked.bits.directions);
     double wall = 1e9, cpu = 1e9;
     for (int run = 0; run < 50; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-        const double before = cpuSeconds();
+        const double start = wallTime(), before = cpuTime();
         relight(baked.bits, scene.normals, radiance);
-        cpu = std::min(cpu, cpuSeconds() - before);
-        wall =
-            std::min(wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        cpu = std::min(cpu, cpuTime() - before);
+        wall = std::min(wall, wallTime() - start);
     }
     fmt::print(
         "relight  {} vertices x 256 directions: {:.2f} ms, {:.2f} ms of CPU (at most 5 ms is asked for); "
         "{:.2f} MB of bits\n",
-        scene.positions.size(), 1e3 * wall, 1e3 * cpu, double(baked.bits.bytes()) * 1e-6);
+        scene.positions.size(), wall, cpu, double(baked.bits.bytes()) * 1e-6);
 }
 
 double megabytesAtMost() {

@@ -13,26 +13,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <ctime>
 
 #include "common/app/report.h"
+#include "tests/bench/clocks.h"
 #include "tests/image/chapter_harness.h"
 #include "tests/image/small_scenes.h"
 
 namespace {
 
 constexpr glm::ivec2 pictureSize(512, 512);
-
-/// Milliseconds, of all threads together.
-double cpuTime() {
-    return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
-}
-double wallTime() {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 struct Way {
     std::string name;
@@ -54,12 +44,10 @@ void measure(std::vector<Way>& ways, int rounds) {
         }
 }
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 template <class Chapter>
 Way way(const std::string& name, const Scene& scene, const Settings& settings) {
     Way made{name, std::make_unique<ChapterHarness>(std::make_unique<Chapter>(), scene)};
-    for (const auto& [parameter, value] : settings) made.harness->set(parameter, value);
+    made.harness->set(settings);
     return made;
 }
 

@@ -19,6 +19,7 @@
 #include "common/scene/find_scene.h"
 #include "common/scene/gltf_loader.h"
 #include "common/scene/gpu_scene.h"
+#include "tests/bench/clocks.h"
 
 namespace penumbra {
 namespace {
@@ -75,11 +76,11 @@ struct BareLoop {
 };
 
 double milliseconds(const std::function<void()>& draw) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = wallTime();
     glClear(GL_DEPTH_BUFFER_BIT);
     draw();
     glFinish();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return wallTime() - start;
 }
 
 double median(std::vector<double> values) {

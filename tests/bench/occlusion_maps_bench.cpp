@@ -9,10 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
 
 #include "chapters/09_ambient_occlusion/vertex_bake.h"
@@ -20,20 +18,13 @@
 #include "chapters/10_accumulated_occlusion/receivers.h"
 #include "chapters/10_accumulated_occlusion/visibility_sums.h"
 #include "common/error.h"
+#include "tests/bench/clocks.h"
 #include "tests/image/chapter_harness.h"
 
 namespace penumbra {
 namespace {
 
 constexpr glm::ivec2 pictureSize(512, 512);
-
-double cpuTime() {
-    return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
-}
-double wallTime() {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 /// Nothing of its own: the harness makes its frames.
 class NoChapter : public Chapter {

@@ -5,11 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <ctime>
 
 #include "common/error.h"
+#include "tests/bench/clocks.h"
 #include "tests/image/chapter_harness.h"
 #include "tests/image/mutated_shaders.h"
 
@@ -64,13 +63,11 @@ void run(const std::string& scene, int rounds) {
     for (int round = -3; round < rounds; ++round) {
         for (Variant& v : variants) {
             // Nothing moves, so the map of the first round is kept and the frame is the shading pass alone.
-            const std::clock_t cpu = std::clock();
-            const auto wall = std::chrono::steady_clock::now();
+            const double cpu = cpuTime(), wall = wallTime();
             v.harness->render("color", glm::ivec2(512));
             if (round < 0) continue;
-            v.wall.push_back(
-                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall).count());
-            v.cpu.push_back(1e3 * double(std::clock() - cpu) / CLOCKS_PER_SEC);
+            v.wall.push_back(wallTime() - wall);
+            v.cpu.push_back(cpuTime() - cpu);
         }
     }
     fmt::print("{}: 512x512 pixels, 1024 map, {}\n", scene, testContext().renderer());

@@ -13,7 +13,7 @@ LIBRARIES = ["-lgtest", "-lgtest_main", "-ltbb", "-lfmt", EMBREE, "-pthread"]
 TRUTH = "common/truth/"
 TESTS = ["tests/unit/ray_tracer_test.cpp", "tests/unit/shadow_packet_test.cpp"]  # linked into one program
 SOURCES = ["common/math/polygon.cpp"] + [
-    f"{TRUTH}{name}.cpp" for name in ("ray_tracer", "embree_scene", "shadow_packet", "surface_hit", "segment_test",
+    f"{TRUTH}{name}.cpp" for name in ("ray_tracer", "embree_scene", "embree_hierarchy", "shadow_packet", "surface_hit", "segment_test",
                                       "lambert_polygon", "light_pyramid", "cone_subtraction", "triangle_bvh",
                                       "exact_scene")]
 

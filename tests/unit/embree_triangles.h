@@ -1,4 +1,4 @@
-// A scene's triangles as Embree sees them in RayTracer (float, robust), and nothing of ours besides.
+// A scene's triangles in Embree alone (float), and nothing of ours besides.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -15,9 +15,11 @@ namespace penumbra {
 
 class EmbreeTriangles {
  public:
-    explicit EmbreeTriangles(const Scene& s) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+    /// By default as in RayTracer.
+    explicit EmbreeTriangles(const Scene& s, RTCSceneFlags flags = RTC_SCENE_FLAG_ROBUST,
+                             RTCBuildQuality quality = RTC_BUILD_QUALITY_HIGH) {
+        rtcSetSceneFlags(scene_, flags);
+        rtcSetSceneBuildQuality(scene_, quality);
         RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         std::copy(s.positions.begin(), s.positions.end(),
                   static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
