@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/scene/glb_container.h"
 
 namespace penumbra::assets {
 namespace {
@@ -30,10 +31,6 @@ Vec3 highest(const std::vector<glm::vec3>& points) {
     glm::vec3 result = points[0];
     for (const glm::vec3& p : points) result = glm::max(result, p);
     return result;
-}
-
-void putWord(std::ostream& out, std::uint32_t value) {
-    for (int shift = 0; shift < 32; shift += 8) out.put(static_cast<char>(value >> shift & 255u));
 }
 
 }  // namespace
@@ -261,20 +258,9 @@ void GlbWriter::write(const std::filesystem::path& file) const {
     if (!used.empty()) root["extensionsUsed"] = used;
     root["buffers"] = Json::array({{{"byteLength", state_->bytes.size()}}});
 
-    std::string text = root.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::string glb = glbContainer(root.dump(), {state_->bytes.data(), state_->bytes.size()});
     std::ofstream out(file, std::ios::binary);
-    const auto jsonLength = static_cast<std::uint32_t>(text.size());
-    const auto binaryLength = static_cast<std::uint32_t>(state_->bytes.size());
-    putWord(out, 0x46546C67u);  // "glTF"
-    putWord(out, 2u);
-    putWord(out, 12u + 8u + jsonLength + 8u + binaryLength);
-    putWord(out, jsonLength);
-    putWord(out, 0x4E4F534Au);  // "JSON"
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    putWord(out, binaryLength);
-    putWord(out, 0x004E4942u);  // "BIN"
-    out.write(state_->bytes.data(), static_cast<std::streamsize>(state_->bytes.size()));
+    out.write(glb.data(), static_cast<std::streamsize>(glb.size()));
     out.close();
     if (!out)
         throw Error("cannot write " + file.string() +

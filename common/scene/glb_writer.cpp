@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "common/scene/glb_container.h"
+
 namespace penumbra {
 
 namespace {
@@ -157,25 +159,6 @@ void addLight(const Scene& scene, const Light& light, Json& lights, Glb& glb) {
     glb.node(node);
 }
 
-void appendWord(std::string& out, std::size_t value) {
-    for (int shift = 0; shift < 32; shift += 8) out.push_back(char(value >> shift & 255u));
-}
-
-/// The container: a header, and the JSON and the binary chunk, each a multiple of four bytes.
-std::string container(std::string json, const std::string& binary) {
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    std::string out;
-    appendWord(out, 0x46546C67u);  // "glTF"
-    appendWord(out, 2);
-    appendWord(out, 12 + 8 + json.size() + 8 + binary.size());
-    appendWord(out, json.size());
-    appendWord(out, 0x4E4F534Au);  // "JSON"
-    out += json;
-    appendWord(out, binary.size());
-    appendWord(out, 0x004E4942u);  // "BIN"
-    return out + binary;
-}
-
 }  // namespace
 
 std::string glbOf(const Scene& scene, std::span<const glm::vec4> ambient) {
@@ -195,7 +178,7 @@ std::string glbOf(const Scene& scene, std::span<const glm::vec4> ambient) {
     }
     glb.root["extensionsUsed"] = used;
     glb.root["buffers"] = Json::array({{{"byteLength", glb.bytes.size()}}});
-    return container(glb.root.dump(-1, ' ', false, Json::error_handler_t::replace), glb.bytes);
+    return glbContainer(glb.root.dump(-1, ' ', false, Json::error_handler_t::replace), glb.bytes);
 }
 
 }  // namespace penumbra
