@@ -58,6 +58,14 @@ class GalleryTest(TreeTest):
         self.assertEqual(re.findall(r'(?:src|href)="[^"]', page), [], "the page points outside itself")
         self.assertEqual(re.findall(r"%[A-Z]+%", page), [], "a part of the page was not filled in")
 
+    def testExactAnswersOfManyRaysAreMadeOfFewer(self):
+        traced = PROGRAM.replace("03_a: idea", "03_a: idea\\n  --truth-rays N  rays").replace(
+            '"ray traced"', 'value("truth-rays") + " rays"')
+        self.write("build/release/bin/03_a", traced, executable=True)
+        status, said = self.render(["03_a"])
+        self.assertEqual(status, 0, said)
+        self.assertIn(f"({gallery.TRUTH_RAYS} rays)", self.read("out/index.html"))
+
     def testSaysWhichViewFailed(self):
         _, said = self.render(["03_a"])
         self.assertIn("03_a: --view depth: no depth today", said)
