@@ -22,7 +22,8 @@
 namespace penumbra {
 
 /// Named counters of the report's "work" object, e.g. shadow_maps_rendered. Of one frame: cleared before
-/// each.
+/// each. One whose name ends in _left counts what a picture that is refined from frame to frame still lacks:
+/// while it is above 0, a window goes on drawing.
 using WorkCounters = std::map<std::string, std::int64_t>;
 
 struct ViewInfo {

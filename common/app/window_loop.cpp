@@ -85,14 +85,10 @@ class WindowLoop {
     bool needsPicture() const {
         return changed_ || divisor_ > 1 || isUnfinished() || framebufferSize(window_) != drawnSize_;
     }
-    /// A chapter that refines its picture from frame to frame counts the rows, or the directions, it has
-    /// left.
     bool isUnfinished() const {
-        const auto left = [this](const char* counter) {
-            const auto found = state_.work.find(counter);
-            return found != state_.work.end() && found->second > 0;
-        };
-        return frameError_.empty() && (left("rows_left") || left("directions_left"));
+        return frameError_.empty() && std::ranges::any_of(state_.work, [](const auto& counter) {
+                   return counter.first.ends_with("_left") && counter.second > 0;
+               });
     }
 
     void frame() {

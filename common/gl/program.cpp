@@ -1,6 +1,7 @@
 #include "common/gl/program.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "common/error.h"
@@ -39,14 +40,27 @@ struct Program::State {
     std::vector<std::string> fixed{};
     std::map<std::string, std::string> constants{};  // of `fixed`, as compiled
 
-    /// Has one of the fixed uniforms another value than it was compiled with? Then it is taken over.
-    bool takeConstants() {
-        std::map<std::string, std::string> now;
+    /// The values that the fixed uniforms have now, in GLSL; those never set are left out.
+    std::map<std::string, std::string> fixedValues() const {
+        std::map<std::string, std::string> values;
         for (const std::string& name : fixed) {
             const std::string value = uniforms.literal(name);
-            if (!value.empty()) now[name] = value;
+            if (!value.empty()) values[name] = value;
         }
-        return std::exchange(constants, now) != now;
+        return values;
+    }
+
+    /// The same as build() if one of the fixed uniforms has another value than it was compiled with. When
+    /// that throws, the next draw tries again.
+    std::optional<GLuint> buildIfChanged() {
+        const auto before = std::exchange(constants, fixedValues());
+        if (constants == before) return std::nullopt;
+        try {
+            return build();
+        } catch (...) {
+            constants = before;
+            throw;
+        }
     }
 
     /// A new program to which the uniforms are attached. When it throws, the uniforms stay with the old one,
@@ -144,7 +158,7 @@ void Program::fix(std::vector<std::string> names) {
 }
 
 void Program::prepareToDraw() {
-    if (state_->takeConstants()) deleteProgram(std::exchange(id_, state_->build()));
+    if (const auto built = state_->buildIfChanged()) deleteProgram(std::exchange(id_, *built));
     state_->uniforms.requireComplete();
     use();
     state_->uniforms.bindTextures();
