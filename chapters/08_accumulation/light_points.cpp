@@ -15,11 +15,6 @@ namespace {
 
 constexpr int most = 4096;
 
-/// In [0, 1).
-double random(std::uint32_t index, std::uint32_t seed, std::uint32_t axis) {
-    return hashSeed(index, seed, axis) * 0x1p-32;
-}
-
 /// Where in its cell of a grid of `count` cells of equal area point `index` lies: `inCell` in [0,1]^2. The
 /// rows divide the points as evenly as whole numbers can, and each is as high as it has points.
 glm::dvec2 inGrid(int index, int count, const glm::dvec2& inCell) {
@@ -34,7 +29,7 @@ glm::dvec2 inGrid(int index, int count, const glm::dvec2& inCell) {
 
 glm::dvec2 fibonacci(int index, int count, std::uint32_t seed) {
     constexpr double goldenRatio = 0.6180339887498949;
-    const glm::dvec2 shift(random(0, seed, 0), random(0, seed, 1));
+    const glm::dvec2 shift(hashUnit(0, seed, 0), hashUnit(0, seed, 1));
     return glm::fract(glm::dvec2((index + 0.5) / count, index * goldenRatio) + shift);
 }
 
@@ -44,7 +39,7 @@ glm::dvec2 inUnitSquare(int index, int count, LightPattern pattern, std::uint32_
         case LightPattern::regular:
             return inGrid(index, count, {0.5, 0.5});
         case LightPattern::jittered:
-            return inGrid(index, count, {random(i, seed, 0), random(i, seed, 1)});
+            return inGrid(index, count, {hashUnit(i, seed, 0), hashUnit(i, seed, 1)});
         case LightPattern::fibonacci:
             return fibonacci(index, count, seed);
         case LightPattern::owenSobol:

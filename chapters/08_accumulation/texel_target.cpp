@@ -43,15 +43,14 @@ void attachDepth(const GlRenderbuffer& depth, const glm::ivec2& size) {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.id());
 }
 
-/// RGBA of the colour attachment that is read from.
+}  // namespace
+
 std::vector<glm::vec4> readTexels(const glm::ivec2& size) {
     std::vector<glm::vec4> values(std::size_t(size.x) * std::size_t(size.y));
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_FLOAT, values.data());
     return values;
 }
-
-}  // namespace
 
 TexelTexture::TexelTexture(const glm::ivec2& size, GLenum format) : size_(size), format_(format) {
     const Transfer transfer = transferOf(format);

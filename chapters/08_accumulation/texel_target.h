@@ -24,6 +24,9 @@ class TexelTexture {
     GlTexture texture_;
 };
 
+/// RGBA of the bound framebuffer's colour attachment that is read from, row 0 at the bottom.
+std::vector<glm::vec4> readTexels(const glm::ivec2& size);
+
 /// One that is drawn into, with its framebuffer. Throws Error if the format cannot be rendered to. Making one
 /// leaves it bound.
 class TexelTarget {

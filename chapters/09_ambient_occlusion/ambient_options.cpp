@@ -26,6 +26,11 @@ Light sunOf(const Scene& scene) {
 
 }  // namespace
 
+void declareSky(Parameters& parameters, std::string& sky) {
+    parameters.addOrFile("sky", sky, Sky::names(),
+                         "what shines: a name, or a latitude-longitude picture (.hdr, .exr)");
+}
+
 void AmbientOptions::declare(Parameters& parameters) {
     parameters.add("method", method, {"hemisphere", "rays", "vertices", "triangles", "bits", "stored"},
                    "hemisphere: by the normal alone; rays: at each pixel; vertices, triangles: baked; bits: "
@@ -38,8 +43,7 @@ void AmbientOptions::declare(Parameters& parameters) {
                    "only surfaces so near occlude; 0: all do, and rooms are black");
     parameters.add("falloff", falloff, {"hard", "smooth"},
                    "towards the end of the range; hard: a contour where it ends");
-    parameters.addOrFile("sky", sky, {"uniform", "overcast", "gradient"},
-                         "what shines: a name, or a latitude-longitude picture (.hdr, .exr)");
+    declareSky(parameters, sky);
     parameters.add("sky-part", skyPart, {"all", "east", "west", "north", "south"},
                    "the half of the sky that is on; bits are kept, so no ray is traced again");
     parameters.add("sun", sun, "the scene's first directional light shines too (methods rays and bits)");

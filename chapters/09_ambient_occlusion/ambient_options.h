@@ -19,6 +19,9 @@ struct SkyLight {
     std::optional<Light> sun;
 };
 
+/// The parameter --sky, for Sky::named: of every chapter that has one.
+void declareSky(Parameters& parameters, std::string& sky);
+
 struct AmbientOptions {
     int samples = 64, truthRays = 4096;
     float range = 0.0f;

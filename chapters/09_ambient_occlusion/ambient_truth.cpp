@@ -4,9 +4,9 @@
 
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 
+#include "chapters/09_ambient_occlusion/halves_differ.h"
 #include "chapters/09_ambient_occlusion/open_planes.h"
 #include "chapters/09_ambient_occlusion/pixel_rays.h"
 #include "common/math/hemisphere.h"
@@ -43,27 +43,12 @@ ContentHash& addSky(ContentHash& key, const SkyLight& light) {
     return key;
 }
 
-/// Sum of squares of the differences between two halves.
-struct HalvesDiffer {
-    std::mutex mutex;
-    double squares = 0.0;
-    std::size_t values = 0;
-
-    void add(const glm::dvec3& difference, int channels) {
-        const std::lock_guard lock(mutex);
-        for (int c = 0; c < channels; ++c) squares += difference[c] * difference[c];
-        values += std::size_t(channels);
-    }
-    /// Of the mean of both halves: half of what they differ by.
-    double standardError() const { return values == 0 ? 0.0 : 0.5 * std::sqrt(squares / double(values)); }
-};
-
 TruthImage traced(const TruthRequest& request, AmbientRays rays, int channels, const Quantity& quantity) {
     const PrimaryHits primary = primaryHits(request.tracer, request.camera, request.size);
     const OpenPlanes planes(request.scene);
     const int count = rays.count;
     rays.count = std::max(1, count / 2);
-    HalvesDiffer halves;
+    HalvesDiffer halves(request.size.y);
     const auto answer = [&](const Hit& hit, int x, int y, float* value) {
         AmbientRays here = rays;
         here.nothingAbove = planes.nothingAbove(hit, rays.reach.range);
@@ -72,7 +57,7 @@ TruthImage traced(const TruthRequest& request, AmbientRays rays, int channels, c
         for (std::uint32_t i = 0; i < 2; ++i)
             half[i] = quantity(castAmbientRays(request.tracer, hit, hit.shadingNormal, here,
                                                hashSeed(x, y, 0x7a11u + i), traced));
-        halves.add(half[0] - half[1], channels);
+        halves.add(y, half[0] - half[1], channels);
         for (int c = 0; c < channels; ++c) value[c] = float(0.5 * (half[0][c] + half[1][c]));
         return true;
     };

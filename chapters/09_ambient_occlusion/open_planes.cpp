@@ -19,17 +19,6 @@ bool above(const glm::dvec3& p, const glm::dvec3& foot, const glm::dvec3& n) {
     return glm::dot(n, p - foot) > bound;
 }
 
-/// The corner of `box` that is farthest along `n`.
-glm::dvec3 highest(const Aabb& box, const glm::dvec3& n) {
-    return {n.x > 0.0 ? box.upper.x : box.lower.x, n.y > 0.0 ? box.upper.y : box.lower.y,
-            n.z > 0.0 ? box.upper.z : box.lower.z};
-}
-
-double squaredDistance(const Aabb& box, const glm::dvec3& p) {
-    const glm::dvec3 gap = p - glm::clamp(p, box.lower, box.upper);
-    return glm::dot(gap, gap);
-}
-
 }  // namespace
 
 OpenPlanes::OpenPlanes(const Scene& scene)
@@ -42,11 +31,11 @@ OpenPlanes::OpenPlanes(const Scene& scene)
 /// Does a triangle of the cluster rise above the plane of `from`, and is it within range?
 bool OpenPlanes::reachesAbove(const Cluster& cluster, const Hit& from, double range) const {
     const glm::dvec3 foot = cornersOf(scene_, from.triangle)[0];
-    if (!above(highest(cluster.bounds, from.geometricNormal), foot, from.geometricNormal)) return false;
-    if (squaredDistance(cluster.bounds, from.position) > range * range) return false;
+    if (!above(cluster.bounds.farthestAlong(from.geometricNormal), foot, from.geometricNormal)) return false;
+    if (cluster.bounds.squaredDistance(from.position) > range * range) return false;
     // The box does, but does a triangle?
     for (std::uint32_t t = cluster.firstTriangle; t < cluster.firstTriangle + cluster.triangleCount; ++t) {
-        if (squaredDistance(boxes_[t], from.position) > range * range) continue;
+        if (boxes_[t].squaredDistance(from.position) > range * range) continue;
         for (const glm::dvec3& corner : cornersOf(scene_, t))
             if (above(corner, foot, from.geometricNormal)) return true;
     }

@@ -59,6 +59,16 @@ FloatImage inColour(const FloatImage& picture) {
 
 }  // namespace
 
+const std::vector<std::string>& Sky::names() {
+    static const std::vector<std::string> all{"uniform", "overcast", "gradient"};
+    return all;
+}
+
+glm::dvec2 latLongUv(const glm::dvec3& direction) {
+    return {0.5 + std::atan2(direction.x, -direction.z) / (2.0 * std::numbers::pi),
+            std::acos(std::clamp(direction.y, -1.0, 1.0)) / std::numbers::pi};
+}
+
 Sky Sky::uniform(const glm::dvec3& radiance) {
     return of([radiance](const glm::dvec3&) { return radiance; });
 }
@@ -84,9 +94,7 @@ Sky Sky::latLong(FloatImage picture) {
         if (!(value >= 0.0f && std::isfinite(value)))
             throw Error("a sky cannot have radiance that is negative or no number; repair the picture");
     const auto radiance = [picture = std::move(picture)](const glm::dvec3& direction) {
-        const double u = 0.5 + std::atan2(direction.x, -direction.z) / (2.0 * std::numbers::pi);
-        const double v = std::acos(std::clamp(direction.y, -1.0, 1.0)) / std::numbers::pi;
-        return lookUp(picture, {u, v});
+        return lookUp(picture, latLongUv(direction));
     };
     return of(radiance);
 }
@@ -97,14 +105,11 @@ Sky Sky::named(const std::string& nameOrFile) {
     if (nameOrFile == "gradient") return gradientSky();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(nameOrFile, ignored)) {
-        const std::vector<std::string> names{"uniform", "overcast", "gradient"};
         throw UsageError(fmt::format("--sky {}: neither one of {} nor a .hdr or .exr file{}", nameOrFile,
-                                     joinNames(names), didYouMean(nameOrFile, names)));
+                                     joinNames(names()), didYouMean(nameOrFile, names())));
     }
     try {
         return latLong(inColour(readImage(nameOrFile)));
-    } catch (const UsageError&) {
-        throw;
     } catch (const Error& error) {
         throw Error(fmt::format("--sky {}: {}", nameOrFile, error.what()));
     }

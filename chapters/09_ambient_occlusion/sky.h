@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/image/image.h"
 
@@ -28,6 +29,8 @@ class Sky {
     /// By name ("uniform", "overcast", "gradient": linear, white above, grey at the horizon, brown below) or
     /// a .hdr/.exr file.
     static Sky named(const std::string& nameOrFile);
+    /// The names.
+    static const std::vector<std::string>& names();
 
     /// The same sky, so many times as bright.
     Sky times(double factor) const;
@@ -44,5 +47,9 @@ class Sky {
     static Sky of(std::function<glm::dvec3(const glm::dvec3& direction)> radiance);
     std::shared_ptr<const Model> model_;
 };
+
+/// Where a unit direction lies in a latitude-longitude picture as Sky::latLong takes it: both in [0,1], v = 0
+/// up.
+glm::dvec2 latLongUv(const glm::dvec3& direction);
 
 }  // namespace penumbra

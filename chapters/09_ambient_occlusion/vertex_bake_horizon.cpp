@@ -19,16 +19,8 @@ struct Horizon::Query {
     double squaredRange = 0.0;
 
     /// Height of the highest corner of the box above the plane.
-    double highest(const Aabb& box) const {
-        const glm::dvec3 corner = {normal.x > 0.0 ? box.upper.x : box.lower.x,
-                                   normal.y > 0.0 ? box.upper.y : box.lower.y,
-                                   normal.z > 0.0 ? box.upper.z : box.lower.z};
-        return glm::dot(normal, corner - position);
-    }
-    bool withinRange(const Aabb& box) const {
-        const glm::dvec3 gap = position - glm::clamp(position, box.lower, box.upper);
-        return glm::dot(gap, gap) < squaredRange;
-    }
+    double highest(const Aabb& box) const { return glm::dot(normal, box.farthestAlong(normal) - position); }
+    bool withinRange(const Aabb& box) const { return box.squaredDistance(position) < squaredRange; }
 };
 
 Horizon::Horizon(const Scene& scene)

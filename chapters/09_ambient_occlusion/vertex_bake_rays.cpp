@@ -14,10 +14,6 @@ namespace penumbra {
 
 namespace {
 
-double unitHash(std::uint32_t seed, std::uint32_t which) {
-    return hashSeed(seed, which) * 0x1p-32;
-}
-
 /// One direction of the lattice, before it is shifted and turned.
 struct Spoke {
     float x = 0.0f;  ///< square of the distance from the disk's centre, or 1 - the height on the hemisphere
@@ -68,8 +64,8 @@ struct RayList {
 
 void castRays(const PointFan& fan, const AmbientRays& asked, std::uint32_t seed, LatticePart part,
               RayList& list) {
-    const auto shift = float(unitHash(seed, 1)),
-               turn = 2.0f * std::numbers::pi_v<float> * float(unitHash(seed, 2));
+    const auto shift = float(hashUnit(seed, 1)),
+               turn = 2.0f * std::numbers::pi_v<float> * float(hashUnit(seed, 2));
     const float cosine = std::cos(turn), sine = std::sin(turn);
     const bool byCosine = asked.weighting == Weighting::cosine;
     list.begin(std::size_t(asked.count));

@@ -18,8 +18,7 @@ class AccumulatedOcclusionChapter : public Chapter {
  public:
     void declare(Parameters& parameters) override {
         options_.declare(parameters);
-        parameters.addOrFile("sky", light_.sky, {"uniform", "overcast", "gradient"},
-                             "what shines: a name, or a latitude-longitude picture (.hdr, .exr)");
+        declareSky(parameters, light_.sky);
         parameters.add("truth-rays", light_.truthRays, 64, 65536, "",
                        "rays at a pixel of the exact answer; the report says its standard error");
     }

@@ -63,10 +63,7 @@ void Receivers::uploadVertices(const Scene& scene) {
 std::vector<glm::vec4> Receivers::readNormals() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
     glReadBuffer(GL_COLOR_ATTACHMENT1);
-    std::vector<glm::vec4> normals(std::size_t(size_.x) * std::size_t(size_.y));
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT, normals.data());
-    return normals;
+    return readTexels(size_);
 }
 
 }  // namespace penumbra

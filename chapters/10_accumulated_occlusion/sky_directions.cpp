@@ -13,15 +13,11 @@ namespace penumbra {
 
 namespace {
 
-double unitNumber(std::uint32_t index, std::uint32_t seed, std::uint32_t which) {
-    return hashSeed(index, seed, which) * 0x1p-32;
-}
-
 std::vector<glm::dvec3> randomSphere(int count, std::uint32_t seed) {
     std::vector<glm::dvec3> directions;
     for (int i = 0; i < count; ++i) {
-        const double z = 1.0 - 2.0 * unitNumber(std::uint32_t(i), seed, 0);
-        const double turn = 2.0 * std::numbers::pi * unitNumber(std::uint32_t(i), seed, 1);
+        const double z = 1.0 - 2.0 * hashUnit(std::uint32_t(i), seed, 0);
+        const double turn = 2.0 * std::numbers::pi * hashUnit(std::uint32_t(i), seed, 1);
         const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
         directions.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
     }
@@ -52,9 +48,9 @@ std::vector<glm::dvec3> skyDirections(int count, const std::string& pattern, std
 
 glm::dmat3 skyRotation(std::uint32_t index, std::uint32_t seed) {
     if (index == 0) return glm::dmat3(1.0);
-    const double u = unitNumber(index, seed, 2);
-    const double a = 2.0 * std::numbers::pi * unitNumber(index, seed, 3);
-    const double b = 2.0 * std::numbers::pi * unitNumber(index, seed, 4);
+    const double u = hashUnit(index, seed, 2);
+    const double a = 2.0 * std::numbers::pi * hashUnit(index, seed, 3);
+    const double b = 2.0 * std::numbers::pi * hashUnit(index, seed, 4);
     const double s = std::sqrt(1.0 - u), t = std::sqrt(u);
     return glm::mat3_cast(glm::dquat(t * std::cos(b), s * std::sin(a), s * std::cos(a), t * std::sin(b)));
 }

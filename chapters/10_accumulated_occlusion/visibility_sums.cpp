@@ -30,10 +30,7 @@ void TexturePair::clear() const {
 std::vector<glm::vec4> TexturePair::readFirst() const {
     bind();
     glReadBuffer(GL_COLOR_ATTACHMENT0);
-    std::vector<glm::vec4> values(std::size_t(size().x) * std::size_t(size().y));
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(0, 0, size().x, size().y, GL_RGBA, GL_FLOAT, values.data());
-    return values;
+    return readTexels(size());
 }
 
 namespace {

@@ -20,8 +20,7 @@ void BentOptions::declare(Parameters& parameters) {
         "irradiance", irradiance, {"sh", "map", "linear", "normalised"},
         "sh: nine numbers; map: a picture; linear: four numbers and (A, B) as they are; normalised: "
         "the same with B of length 1, too bright");
-    parameters.addOrFile("sky", sky, {"uniform", "overcast", "gradient"},
-                         "what shines: a name, or a latitude-longitude picture (.hdr, .exr)");
+    declareSky(parameters, sky);
     parameters.add("combine", combine, {"principled", "adhoc", "none"},
                    "principled: A E(B) of the sky; adhoc: A times the lamp's n.l; none: the lamp alone");
     parameters.add("light", light, 0, 63, "", "index of the lamp of adhoc, none and --view diffuse");

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <span>
 #include <vector>
 
 #include "chapters/09_ambient_occlusion/ambient_truth.h"
+#include "chapters/09_ambient_occlusion/halves_differ.h"
 #include "common/math/hemisphere.h"
 #include "common/math/sampling.h"
 #include "common/truth/truth_cache.h"
@@ -25,25 +25,22 @@ constexpr std::uint32_t truthSeed = 0x7275u;
 
 TruthImage compute(const TruthRequest& request, const Sky& sky, const SkyDensity& density, int rays) {
     const PrimaryHits primary = primaryHits(request.tracer, request.camera, request.size);
-    // Squared differences of the two halves, row by row: a sum of doubles in another order is another sum.
-    std::vector<double> squares(std::size_t(request.size.y));
+    HalvesDiffer halves(request.size.y);
     const auto answer = [&](const Hit& hit, int x, int y, float* value) {
         const std::uint32_t seed = hashSeed(std::uint32_t(x), std::uint32_t(y), truthSeed);
         const auto half = [&](std::uint32_t i) {
             return tracedIrradiance(request.tracer, hit, sky, density, rays / 2, hashSeed(seed, i));
         };
         const glm::dvec3 first = half(1), second = half(2);
-        squares[std::size_t(y)] += glm::dot(first - second, first - second) / 3.0;
+        halves.add(y, first - second, 3);
         const glm::vec3 E(0.5 * (first + second));
         std::copy_n(&E.x, 3, value);
         return true;
     };
     TruthImage truth = surfaceTruth(primary, 3, answer, request.progress);
-    const double pixels = std::accumulate(truth.mask.values.begin(), truth.mask.values.end(), 0.0);
-    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
     truth.quantity = "irradiance";
-    truth.method = fmt::format("ray traced, {} rays a pixel, standard error {:.1e}", rays,
-                               0.5 * std::sqrt(sum / std::max(1.0, pixels)));
+    truth.method =
+        fmt::format("ray traced, {} rays a pixel, standard error {:.1e}", rays, halves.standardError());
     truth.against = "sky";
     return truth;
 }

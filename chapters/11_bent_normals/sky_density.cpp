@@ -5,6 +5,8 @@
 #include <numbers>
 #include <span>
 
+#include "chapters/09_ambient_occlusion/sky.h"
+
 namespace penumbra {
 
 namespace {
@@ -64,10 +66,9 @@ glm::dvec3 SkyDensity::direction(const glm::dvec2& u) const {
 
 double SkyDensity::at(const glm::dvec3& d) const {
     if (isBlack()) return 0.0;
-    const double theta = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi;
-    const double turn = std::atan2(d.x, -d.z) / (2.0 * pi) + 0.5;
-    const int row = std::min(int(theta * rows_), rows_ - 1);
-    const int column = std::min(int(turn * columns_), columns_ - 1);
+    const glm::dvec2 uv = latLongUv(d);
+    const int row = std::min(int(uv.y * rows_), rows_ - 1);
+    const int column = std::min(int(uv.x * columns_), columns_ - 1);
     const double solidAngle = (top(row) - top(row + 1)) * 2.0 * pi / columns_;
     return cells_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)] / (total_ * solidAngle);
 }

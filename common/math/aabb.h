@@ -29,6 +29,15 @@ struct Aabb {
     glm::dvec3 corner(int i) const {
         return {(i & 1) ? upper.x : lower.x, (i & 2) ? upper.y : lower.y, (i & 4) ? upper.z : lower.z};
     }
+    /// The corner that is farthest along `n`.
+    glm::dvec3 farthestAlong(const glm::dvec3& n) const {
+        return corner((n.x > 0.0 ? 1 : 0) | (n.y > 0.0 ? 2 : 0) | (n.z > 0.0 ? 4 : 0));
+    }
+    /// Of `p` from the nearest point of the box; 0 inside.
+    double squaredDistance(const glm::dvec3& p) const {
+        const glm::dvec3 gap = p - glm::clamp(p, lower, upper);
+        return glm::dot(gap, gap);
+    }
 };
 
 }  // namespace penumbra

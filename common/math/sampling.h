@@ -13,6 +13,11 @@ namespace penumbra {
 /// pattern.
 std::uint32_t hashSeed(std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
 
+/// The same as a number in [0, 1).
+inline double hashUnit(std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0) {
+    return hashSeed(a, b, c) * 0x1p-32;
+}
+
 /// Point `index` of the 2-D Sobol sequence with nested uniform (Owen) scrambling and shuffling by `seed`, in
 /// [0,1)^2. Each prefix of 2^k points is a (0,k,2)-net: every elementary interval of area 2^-k holds one
 /// point. (Owen 1998, J. Complexity; hash-based form: Burley, "Practical Hash-based Owen Scrambling", 2020,

@@ -19,7 +19,7 @@ uniform float uBias;
 layout(location = 0) out vec4 outSeen;
 layout(location = 1) out vec4 outReceived;
 
-const float horizonCosine = 0.02;
+const float horizonCosine = 0.02;  // as in direction_batches.h
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);

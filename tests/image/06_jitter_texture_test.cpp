@@ -26,13 +26,11 @@ std::unique_ptr<Chapter> chapter() {
     return std::make_unique<JitterTextureChapter>();
 }
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 FloatImage edgePicture(std::unique_ptr<Chapter> drawn, const EdgeScene& edge, const Settings& settings) {
     ChapterHarness harness(std::move(drawn), edge.scene);
     harness.set("map-size", "512");
     harness.set("radius", "64");
-    for (const auto& [name, value] : settings) harness.set(name, value);
+    harness.set(settings);
     return harness.scalar("visibility", size);
 }
 

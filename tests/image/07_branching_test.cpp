@@ -20,14 +20,12 @@ namespace {
 
 constexpr glm::ivec2 size(192, 192);
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 std::unique_ptr<Chapter> chapter() {
     return std::make_unique<Branching>();
 }
 
 FloatImage picture(ChapterHarness& harness, const Settings& settings) {
-    for (const auto& [name, value] : settings) harness.set(name, value);
+    harness.set(settings);
     return harness.scalar("visibility", size);
 }
 

@@ -21,11 +21,9 @@ namespace penumbra {
 namespace {
 
 using glm::dvec3;
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 ChapterHarness harnessOf(const Scene& scene, const Settings& settings = {}, Api api = Api::desktop) {
     ChapterHarness harness(std::make_unique<Accumulation>(), scene, api);
-    for (const auto& [name, value] : settings) harness.set(name, value);
+    harness.set(settings);
     return harness;
 }
 
@@ -48,12 +46,6 @@ double penumbraRmse(const FloatImage& actual, const TruthImage& truth) {
         ++count;
     }
     return std::sqrt(sum / count);
-}
-
-std::size_t differing(const FloatImage& a, const FloatImage& b) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.values.size(); ++i) count += a.values[i] != b.values[i];
-    return count;
 }
 
 double largestDifference(const FloatImage& a, const FloatImage& b) {
@@ -182,7 +174,7 @@ const std::vector<Case> cases{
 
 ChapterHarness harnessOf(const Case& c, const Settings& more) {
     ChapterHarness harness = harnessOf(testScene(c.scene), c.settings);
-    for (const auto& [name, value] : more) harness.set(name, value);
+    harness.set(more);
     harness.set("others", "unshadowed");
     return harness;
 }

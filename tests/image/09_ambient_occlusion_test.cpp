@@ -23,13 +23,12 @@ namespace penumbra {
 namespace {
 
 using glm::dvec3;
-using Settings = std::vector<std::pair<std::string, std::string>>;
 constexpr double pi = std::numbers::pi;
 constexpr glm::ivec2 small(64, 48);
 
 ChapterHarness harnessOf(const Scene& scene, const Settings& settings = {}, Api api = Api::desktop) {
     ChapterHarness harness(std::make_unique<AmbientOcclusion>(), scene, api);
-    for (const auto& [name, value] : settings) harness.set(name, value);
+    harness.set(settings);
     return harness;
 }
 
@@ -46,12 +45,6 @@ TruthImage formOf(const ChapterHarness& harness, const glm::ivec2& size,
         *value = float(exact(hit));
         return true;
     });
-}
-
-std::size_t differing(const FloatImage& a, const FloatImage& b) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.values.size(); ++i) count += a.values[i] != b.values[i];
-    return count;
 }
 
 // --- rays at each pixel ------------------------------------------------------------------------------------
@@ -433,7 +426,7 @@ TEST(Chapter09, WhatAMethodCannotDoIsRefused) {
                               {{"sky", "no/such.exr"}}};
     for (const Settings& settings : wrong) {
         ChapterHarness harness = harnessOf(testScene("contact"), {{"samples", "4"}});
-        for (const auto& [name, value] : settings) harness.set(name, value);
+        harness.set(settings);
         EXPECT_THROW(harness.picture("color", {16, 16}, 3), UsageError) << settings[0].first;
     }
     ChapterHarness harness = harnessOf(testScene("room"), {{"sun", "on"}});

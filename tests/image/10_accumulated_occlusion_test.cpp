@@ -23,13 +23,12 @@ namespace penumbra {
 namespace {
 
 using glm::dvec3;
-using Settings = std::vector<std::pair<std::string, std::string>>;
 constexpr glm::ivec2 small(64, 48);
 
 ChapterHarness harnessOf(const Scene& scene, const Settings& settings = {}, Api api = Api::desktop) {
     ChapterHarness harness(std::make_unique<AccumulatedOcclusionChapter>(), scene, api);
     harness.set("truth-rays", "1024");
-    for (const auto& [name, value] : settings) harness.set(name, value);
+    harness.set(settings);
     return harness;
 }
 
@@ -53,12 +52,6 @@ double rmseOf(const FloatImage& actual, const TruthImage& truth) {
         ++count;
     }
     return std::sqrt(sum / count);
-}
-
-std::size_t differing(const FloatImage& a, const FloatImage& b) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.values.size(); ++i) count += a.values[i] != b.values[i];
-    return count;
 }
 
 /// A floor, with or without a box on it, seen from above.

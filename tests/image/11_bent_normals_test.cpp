@@ -26,7 +26,6 @@ namespace {
 
 using glm::dvec3;
 using std::numbers::pi;
-using Settings = std::vector<std::pair<std::string, std::string>>;
 
 const std::string clearSky = std::string(PENUMBRA_SOURCE_DIR) + "/assets/clear_sky.hdr";
 const std::string chapel = std::string(PENUMBRA_SOURCE_DIR) + "/assets/chapel.hdr";
@@ -34,7 +33,7 @@ const std::string chapel = std::string(PENUMBRA_SOURCE_DIR) + "/assets/chapel.hd
 template <class C = BentNormals>
 ChapterHarness harnessOf(const Scene& scene, const Settings& settings = {}, Api api = Api::desktop) {
     ChapterHarness harness(std::make_unique<C>(), scene, api);
-    for (const auto& [name, value] : settings) harness.set(name, value);
+    harness.set(settings);
     return harness;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/app/chapter.h"
 #include "common/gl/render_target.h"
@@ -38,6 +39,16 @@ inline const Scene& testScene(const std::string& nameOrFile) {
     return scenes.emplace(nameOrFile, loadGltf(findScene(nameOrFile))).first->second;
 }
 
+/// Values that are not the same to the bit; both pictures must have the same size and channels.
+inline std::size_t differing(const FloatImage& a, const FloatImage& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i) count += a.values[i] != b.values[i];
+    return count;
+}
+
+/// Parameters by name, and their values.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
 /// One chapter with one scene.
 class ChapterHarness {
  public:
@@ -52,6 +63,9 @@ class ChapterHarness {
     }
 
     void set(const std::string& parameter, const std::string& value) { parameters_.set(parameter, value); }
+    void set(const Settings& settings) {
+        for (const auto& [parameter, value] : settings) set(parameter, value);
+    }
 
     /// A frame like the one a chapter is given, its framebuffer bound.
     Frame frame(const std::string& view, const glm::ivec2& size) {

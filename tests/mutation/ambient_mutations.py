@@ -41,9 +41,10 @@ MUTATIONS = {
     "NotANumberShines": (SKY, "sky", "*NoSky*", [("value >= 0.0f && std::isfinite(value)", "!(value < 0.0f)")]),
     # where no ray is needed
     "BoxesForTriangles": (PLANES, "sky", "*NotTheirBoxes*", [("if (above(corner, foot", "if (true || above(corner, foot")]),
-    "OneCornerOfABox": (PLANES, "sky", "*RisesAbove*", [("n.y > 0.0 ? box.upper.y : box.lower.y", "box.lower.y")]),
-    "RangesFromTheMiddle": (PLANES, "sky", "*RisesAbove*", [("p - glm::clamp(p, box.lower, box.upper)", "p - box.centre()")]),
-    "ClustersForTriangles": (PLANES, "sky", "*RisesAbove*", [("if (squaredDistance(boxes_[t], from.position) > range * range) continue;", "")]),
+    "OneCornerOfABox": (PLANES, "sky", "*RisesAbove*", [("cluster.bounds.farthestAlong(from.geometricNormal)", "cluster.bounds.lower")]),
+    "RangesFromTheMiddle": (PLANES, "sky", "*RisesAbove*", [("cluster.bounds.squaredDistance(from.position)", "glm::dot(from.position - cluster.bounds.centre(), from.position - cluster.bounds.centre())"),
+         ("boxes_[t].squaredDistance(from.position)", "glm::dot(from.position - boxes_[t].centre(), from.position - boxes_[t].centre())")]),
+    "ClustersForTriangles": (PLANES, "sky", "*RisesAbove*", [("if (boxes_[t].squaredDistance(from.position) > range * range) continue;", "")]),
     "BothSidesAreOne": (PLANES, "sky", "*RisesAbove*", [("(from.fromBehind ? 1 : 0)", "0")]),
 }
 
