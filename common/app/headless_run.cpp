@@ -86,7 +86,8 @@ Report describe(ChapterSession& session, const std::string& view) {
     report.antialias = options.antialias;
     report.camera = options.camera;
     report.seed = options.seed;
-    report.skip = options.skip;
+    report.skip = !session.parameters().skips().allOff();
+    report.skipsOff = session.parameters().skips().off();
     report.still = options.still;
     const Context* context = session.context();
     report.renderer = context ? context->renderer() : "CPU";
