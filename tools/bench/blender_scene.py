@@ -5,7 +5,6 @@ meshes, which is compared with what Blender made of them. Standard library only:
 """
 import array
 import json
-import math
 import resource
 import sys
 from pathlib import Path
@@ -14,6 +13,7 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from bench import export  # noqa: E402
+from bench.peers_curves import figures  # noqa: E402
 
 
 def cpu():
@@ -76,13 +76,6 @@ def importMesh(described):
     made.cycles.shadow_terminator_geometry_offset = 0.0
     made.cycles.shadow_terminator_offset = 0.0
     return made
-
-
-def figures(errors):
-    """Of a list of differences, by the names of the chapters' reports."""
-    count = len(errors)
-    return {"pixels": count, "rmse": math.sqrt(sum(e * e for e in errors) / count), "bias": sum(errors) / count,
-            "mean_abs": sum(map(abs, errors)) / count, "max_abs": max(map(abs, errors))}
 
 
 def answer(to, **said):

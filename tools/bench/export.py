@@ -43,6 +43,12 @@ class Mesh:
         axes = [self.positions[axis::3] for axis in range(3)]
         return [[min(axis) for axis in axes], [max(axis) for axis in axes]]
 
+    def add(self, other):
+        self.indices.extend(self.vertices + index for index in other.indices)
+        self.positions += other.positions
+        self.normals += other.normals
+        self.values += other.values
+
     def summary(self):
         """What two programs must agree on if they have the same mesh."""
         return {"vertices": self.vertices, "triangles": self.triangles, "bounds": self.bounds()}

@@ -13,7 +13,8 @@ class Point:
     flags: tuple    # further words of the command line; --size among them replaces the runner's
     quantity: str   # what it estimates: techniques of one quantity and scene are compared with each other
     compare: bool = True  # with the exact answer; without, the point is only timed
-    most: int = 12  # frames timed in one pass, at most
+    most: int = 12        # frames timed in one pass, at most
+    once: tuple = ()      # passes of the report that are made once, before the first frame: their time is `once_ms`
 
     @property
     def id(self):
