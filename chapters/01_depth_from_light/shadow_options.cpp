@@ -17,11 +17,11 @@ void ShadowOptions::declare(Parameters& parameters) {
         "fit", fit, {"scene", "view"},
         "what the map holds: all that the light reaches, so that it is drawn once, or what the camera "
         "sees of it, with finer texels whose edges crawl while the camera moves");
-    declareMapSkips(parameters);
+    declareMapSkips(parameters.skips());
 }
 
-void declareMapSkips(Parameters& parameters) {
-    for (const Skip* skip : {&keptMaps, &clustersOffMap, &clustersUnseen}) parameters.skips().declare(*skip);
+void declareMapSkips(Skips& skips) {
+    for (const Skip* skip : {&keptMaps, &clustersOffMap, &clustersUnseen}) skips.declare(*skip);
 }
 
 bool ShadowOptions::Fitted::sameAs(const Fitted& other) const {

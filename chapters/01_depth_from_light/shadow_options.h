@@ -49,7 +49,7 @@ struct ShadowOptions {
 
 /// Of a chapter with maps that declares parameters of its own: the skips of ShadowMap::render and
 /// drawPicture.
-void declareMapSkips(Parameters& parameters);
+void declareMapSkips(Skips& skips);
 
 /// Sets the uniforms of lit.vert and lit.frag that don't belong to a material: camera, light, ambient term.
 void setCameraAndLight(Program& program, const Frame& frame, const ShadowOptions& options);

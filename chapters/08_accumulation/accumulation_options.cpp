@@ -67,7 +67,7 @@ void AccumulationOptions::declare(Parameters& parameters) {
     for (const Skip* skip : {&receiversUnreached, &clustersNotBetween, &texelsUnreached, &texelsAgreeing,
                              &trianglesOffBlock, &keptShadows, &keptTextures})
         parameters.skips().declare(*skip);
-    declareMapSkips(parameters);
+    declareMapSkips(parameters.skips());
 }
 
 std::vector<int> AccumulationOptions::chosenLights(const Scene& scene) const {

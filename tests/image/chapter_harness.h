@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "chapters/01_depth_from_light/shadow_options.h"
 #include "common/app/chapter.h"
 #include "common/gl/render_target.h"
 #include "common/scene/find_scene.h"
@@ -76,6 +77,7 @@ class ChapterHarness {
         target_->bind();
         work.clear();
         skips_ = parameters_.skips();
+        declareMapSkips(skips_);  // tests use the frame for maps of their own too
         if (!skip) skips_.switchAllOff();
         return {.scene = scene,
                 .gpu = &gpu_,

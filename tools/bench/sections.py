@@ -8,10 +8,12 @@ A section is a module of this folder with
     measure(point)  only where a point is not a run of a chapter: the dict that bench.runner.measure would give
     ON_REQUEST      True where it is measured only by --section NAME or --NAME
 """
-from bench import error
+from bench import error, growth, skips
 
 ALL = [
     error,
+    skips,
+    growth,
 ]
 
 
