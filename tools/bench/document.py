@@ -26,7 +26,7 @@ def pageOf(machine, results, source):
 
 def head(machine, results):
     frames = sum(result.get("runs", 0) for result in results)
-    scenes = list(dict.fromkeys(f"`{result['scene']}`" for result in results))
+    scenes = list(dict.fromkeys(f"`{r['scene']}`" for r in results if "/" not in r["scene"]))  # not what a section makes
     return ["# Run time against error", "",
             "Which technique is cheapest for a given error, why, and how its cost grows. Every figure on this page was measured "
             f"by `./run bench`, which wrote it: {len(results)} points on {', '.join(scenes)}, {frames} timed frames, their "
