@@ -59,6 +59,7 @@ class Growth:
 
 
 AREA = ("--light", "1", "--others", "unshadowed", "--view", "irradiance")
+LAMPS = ("--light", "-1", "--texels-per-metre", "40", "--view", "irradiance")
 RAYS = ("--method", "rays", "--view", "ambient")
 BAKE = ("--method", "vertices", "--view", "ambient")
 SMALL = ("--size", "256x256")
@@ -89,8 +90,8 @@ GROWTHS = (
     ]),
     *alike("lights", LIGHTS, [
         ("00 rays", "00_ray_traced_truth", ("--samples", "16", *SMALL), {"quick": True}),
-        ("08 masks", "08_accumulation", ("--light", "-1", "--view", "irradiance"), {"quick": True}),
-        ("08 accumulated", "08_accumulation", ("--light", "-1", "--method", "accumulate", "--view", "irradiance"), {}),
+        ("08 masks", "08_accumulation", LAMPS, {"quick": True}),
+        ("08 accumulated", "08_accumulation", (*LAMPS, "--method", "accumulate"), {}),
     ]),
     *alike("samples", SAMPLES, [
         ("00 rays", "00_ray_traced_truth", ("--light", "1", "--adaptive", "off", *SMALL), {"quick": True, "flag": "--samples"}),
