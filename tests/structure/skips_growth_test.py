@@ -23,7 +23,8 @@ def exrBytes(size, channels, compression=3):
     blocks = []
     for top in range(0, height, exr.ZIP[compression]):
         rows = range(top, min(top + exr.ZIP[compression], height))
-        raw = b"".join(struct.pack(f"<{width}f", *channels[name][y * width:(y + 1) * width]) for y in rows for name in sorted(channels))
+        raw = b"".join(struct.pack(f"<{width}f", *channels[name][y * width:(y + 1) * width])
+                       for y in rows for name in sorted(channels))
         split = raw[0::2] + raw[1::2]
         packed = zlib.compress(bytes([split[0]] + [(b - a + 128) & 255 for a, b in zip(split, split[1:])]))
         blocks.append(struct.pack("<2i", top, min(len(packed), len(raw))) + min(packed, raw, key=len))
@@ -65,8 +66,8 @@ class ExrTest(unittest.TestCase):
 
 
 def result(point, **more):
-    return {"id": point.id, "technique": point.technique, "quantity": point.quantity, "axis": point.axis, "value": point.value,
-            "cpu_ms": 10.0, "cpu_min_ms": 10.0, "total_cpu_ms": 100.0, "memory_mb": 50.0, "work": {}, **more}
+    return {"id": point.id, "technique": point.technique, "quantity": point.quantity, "axis": point.axis,
+            "value": point.value, "cpu_ms": 10.0, "cpu_min_ms": 10.0, "total_cpu_ms": 100.0, "memory_mb": 50.0, "work": {}, **more}
 
 
 class SkipsTest(unittest.TestCase):
@@ -86,7 +87,8 @@ class SkipsTest(unittest.TestCase):
     def testTheTableSaysWhatWasSavedAndThatNothingChanged(self):
         text = "\n".join(skips.page(self.results(0))[0])
         self.assertIn("None of those that claim to be exact changed a bit", text)
-        for cell in ("`clusters-unseen`", "| 10.0 | 25.0 | 2.50 |", "triangles_submitted 4 000 → 102 900", "0 of 4 096", "why"):
+        for cell in ("`clusters-unseen`", "| 10.0 | 25.0 | 2.50 |", "triangles_submitted 4 000 → 102 900", "0 of 4 096",
+                     "| why |"):
             self.assertIn(cell, text)
 
     def testASkipThatChangesThePictureIsSaidAloud(self):

@@ -50,7 +50,8 @@ class Growth:
             flags = (*flags, self.flag, f"{value:.0f}")
         # A knot has half as many vertices as triangles; a square picture the square of its side in pixels.
         amount = value ** 2 if self.axis == "pixels" else value / 2 if self.axis == "vertices" else value
-        return Point(NAME, scene, self.technique, self.chapter, self.axis, amount, flags, self.axis, compare=False, most=self.runs)
+        return Point(NAME, scene, self.technique, self.chapter, self.axis, amount, flags, self.axis, compare=False,
+                     most=self.runs)
 
     def points(self, quick):
         if not quick:
@@ -66,7 +67,8 @@ SMALL = ("--size", "256x256")
 
 
 def alike(axis, values, entries):
-    return [Growth(axis, technique, chapter, flags, **{"values": values, **more}) for technique, chapter, flags, more in entries]
+    return [Growth(axis, technique, chapter, flags, **{"values": values, **more})
+            for technique, chapter, flags, more in entries]
 
 
 GROWTHS = (
@@ -94,7 +96,8 @@ GROWTHS = (
         ("08 accumulated", "08_accumulation", (*LAMPS, "--method", "accumulate"), {}),
     ]),
     *alike("samples", SAMPLES, [
-        ("00 rays", "00_ray_traced_truth", ("--light", "1", "--adaptive", "off", *SMALL), {"quick": True, "flag": "--samples"}),
+        ("00 rays", "00_ray_traced_truth", ("--light", "1", "--adaptive", "off", *SMALL),
+         {"quick": True, "flag": "--samples"}),
         ("07 branching", "07_branching", (), {"quick": True, "flag": "--samples"}),
         ("08 masks", "08_accumulation", AREA, {"quick": True, "flag": "--samples"}),
         ("08 accumulated", "08_accumulation", (*AREA, "--method", "accumulate"), {"flag": "--samples"}),
@@ -104,8 +107,10 @@ GROWTHS = (
     ]),
     *alike("vertices", TRIANGLES, [
         ("09 bake", "09_ambient_occlusion", (*BAKE, "--samples", "16"), {"baked": True, "quick": True}),
-        ("09 bake of bits", "09_ambient_occlusion", ("--method", "bits", "--samples", "64", "--view", "irradiance"), {"baked": True}),
-        ("10 maps, at vertices", "10_accumulated_occlusion", ("--method", "vertices", "--samples", "8", "--view", "ambient"), {}),
+        ("09 bake of bits", "09_ambient_occlusion", ("--method", "bits", "--samples", "64", "--view", "irradiance"),
+         {"baked": True}),
+        ("10 maps, at vertices", "10_accumulated_occlusion",
+         ("--method", "vertices", "--samples", "8", "--view", "ambient"), {}),
     ]),
 )
 TITLES = {"triangles": "triangles of the scene", "pixels": "pixels of the picture", "lights": "area lights",
@@ -139,7 +144,7 @@ def measure(point):
 
 
 def exponent(pairs):
-    """Of the power law through the upper half of the range: least squares of log y over log x; None if there is nothing to fit."""
+    """Of the power law through the upper half of the range, by least squares of logarithms; None: nothing to fit."""
     upper = sorted(pairs)[len(pairs) // 2:] if len(pairs) > 3 else sorted(pairs)[-2:]
     logs = [(math.log(x), math.log(y)) for x, y in upper if x > 0 and y > 0]
     if len(logs) < 2:
@@ -191,11 +196,12 @@ class Fitted:
         frame, whole_, memory = map(shownExponent, self.exponents())
         first, last = self.results[0], self.results[-1]
         return [self.growth.technique, f"{amount(first['value'])} … {amount(last['value'])}",
-                "" if self.growth.baked else f"{last['cpu_min_ms']:.1f}", frame, f"{1e-3 * last['total_cpu_ms']:.1f}", whole_,
-                f"{last['memory_mb']:.0f}", memory, self.why()]
+                "" if self.growth.baked else f"{last['cpu_min_ms']:.1f}", frame, f"{1e-3 * last['total_cpu_ms']:.1f}",
+                whole_, f"{last['memory_mb']:.0f}", memory, self.why()]
 
     def why(self):
-        return growth_reasons.REASONS.get((self.growth.axis, self.growth.technique), growth_reasons.REASONS[self.growth.axis])
+        reasons = growth_reasons.REASONS
+        return reasons.get((self.growth.axis, self.growth.technique), reasons[self.growth.axis])
 
 
 def fitted(results):
@@ -235,9 +241,9 @@ def page(results):
     fits, figures = fitted(results), []
     lines = [
         "## How the work grows", "",
-        "CPU time of a frame at the end of each range, of the whole run (loading, hierarchies, bakes) and the largest memory of "
-        "the process, each with the exponent of the power law through the upper half of the range, where what does not grow no "
-        f"longer hides what does. An exponent above {ABOVE_LINEAR} is in bold.", "", verdict(fits), ""]
+        "CPU time of a frame at the end of each range, of the whole run (loading, hierarchies, bakes) and the largest memory "
+        "of the process, each with the exponent of the power law through the upper half of the range, where what does not "
+        f"grow no longer hides what does. An exponent above {ABOVE_LINEAR} is in bold.", "", verdict(fits), ""]
     for axis, title in TITLES.items():
         mine = [f for f in fits if f.growth.axis == axis]
         if mine:

@@ -11,7 +11,8 @@ TOGETHER = 40.0  # radiance times number of lights: the picture is as bright wit
 def box(x, y, z, wide, high):
     """Corners and triangles of a box that stands on y, outwards."""
     half = wide / 2
-    corners = [(x + dx * half, y + dy * high, z + dz * half) for dy in (0, 1) for dx, dz in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    around = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    corners = [(x + dx * half, y + dy * high, z + dz * half) for dy in (0, 1) for dx, dz in around]
     quads = [(0, 1, 2, 3), (7, 6, 5, 4), (4, 5, 1, 0), (5, 6, 2, 1), (6, 7, 3, 2), (7, 4, 0, 3)]
     return corners, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
 
@@ -27,7 +28,8 @@ def spots(count, side):
     """`count` places spread over a square."""
     columns = math.ceil(math.sqrt(count))
     rows = math.ceil(count / columns)
-    return [((i % columns + 0.5) / columns * side - side / 2, (i // columns + 0.5) / rows * side - side / 2) for i in range(count)]
+    return [((i % columns + 0.5) / columns * side - side / 2, (i // columns + 0.5) / rows * side - side / 2)
+            for i in range(count)]
 
 
 class Writer:
@@ -36,7 +38,8 @@ class Writer:
 
     def accessor(self, payload, kind, component, count, **more):
         self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(payload)})
-        self.accessors.append({"bufferView": len(self.views) - 1, "componentType": component, "count": count, "type": kind, **more})
+        self.accessors.append({"bufferView": len(self.views) - 1, "componentType": component, "count": count, "type": kind,
+                               **more})
         self.data += payload
         return len(self.accessors) - 1
 
@@ -48,7 +51,8 @@ class Writer:
                                   max=[max(c[i] for c in corners) for i in range(3)])
         indices = self.accessor(struct.pack(f"<{3 * len(triangles)}I", *[i for t in triangles for i in t]), "SCALAR", 5125,
                                 3 * len(triangles))
-        self.meshes.append({"primitives": [{"attributes": {"POSITION": positions}, "indices": indices, "material": material}]})
+        primitive = {"attributes": {"POSITION": positions}, "indices": indices, "material": material}
+        self.meshes.append({"primitives": [primitive]})
         self.nodes.append({"name": name, "mesh": len(self.meshes) - 1})
 
 
@@ -64,8 +68,8 @@ def gltf(count):
     writer.nodes.append({"name": "camera", "camera": 0, "translation": [0.0, 5.0, 7.0],
                          "rotation": [math.sin(turned / 2), 0.0, 0.0, math.cos(turned / 2)]})
     return json.dumps({
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(writer.nodes)))}], "nodes": writer.nodes,
-        "meshes": writer.meshes, "accessors": writer.accessors, "bufferViews": writer.views,
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(writer.nodes)))}],
+        "nodes": writer.nodes, "meshes": writer.meshes, "accessors": writer.accessors, "bufferViews": writer.views,
         "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.1, "zfar": 100.0}}],
         "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.7, 0.7, 0.7, 1.0], "metallicFactor": 0.0}},
                       {"emissiveFactor": [1.0, 1.0, 1.0], "pbrMetallicRoughness": {"baseColorFactor": [0.0, 0.0, 0.0, 1.0]},

@@ -38,7 +38,8 @@ class Case:
     runs: int = 5
 
     def point(self, technique, flags, on):
-        return Point(NAME, self.scene, technique, self.chapter, "on", float(on), self.flags + flags, self.label, compare=False)
+        return Point(NAME, self.scene, technique, self.chapter, "on", float(on), self.flags + flags, self.label,
+                     compare=False)
 
     def points(self, quick):
         off = [o for o in self.off if o.quick or not quick]
@@ -65,8 +66,8 @@ CASES = (
         skip("clusters-off-map"), skip("clusters-unseen", quick=True), everything("triangles_shaded")), runs=15),
     Case("nothing moves", "03_polygon_offset", "courtyard", (*MAPS, "--still"), (skip("kept-maps"),)),
     Case("a wide filter", "07_branching", "courtyard", MAPS, (
-        Off("--classify none", ("--classify", "none"), "visibility_tests", "all taps only where the minima and maxima of the "
-            "map leave open whether all of them agree"), everything("visibility_tests"))),
+        Off("--classify none", ("--classify", "none"), "visibility_tests", "all taps only where the minima and maxima of "
+            "the map leave open whether all of them agree"), everything("visibility_tests"))),
     Case("a wide filter, nothing moves", "07_branching", "courtyard", (*MAPS, "--still"), (skip("kept-min-max"),)),
     Case("an area light on planes", "08_accumulation", "room", (*MASKS, "--light", "1"), (
         skip("receivers-unreached"), skip("clusters-not-between"), skip("texels-unreached"), skip("texels-agreeing"),
@@ -87,8 +88,9 @@ CASES = (
         skip("rays-to-open-sky"),
         Off("--share off", ("--share", "off"), "rays_baked", "neighbours use one another's rays: other values, as accurate",
             exact=False)), whole=True, runs=1),
-    Case("a bake of bits", "09_ambient_occlusion", "gully", ("--method", "bits", "--samples", "512", "--view", "irradiance"), (
-        skip("rays-to-open-sky"),), whole=True, runs=1),
+    Case("a bake of bits", "09_ambient_occlusion", "gully",
+         ("--method", "bits", "--samples", "512", "--view", "irradiance"), (
+             skip("rays-to-open-sky"),), whole=True, runs=1),
     Case("many maps", "10_accumulated_occlusion", "gully", ("--samples", "128", "--view", "ambient"), (
         skip("maps-below-horizon"), skip("look-ups-facing-away"), everything("shadow_maps_rendered")), runs=2),
     Case("many maps, nothing moves", "10_accumulated_occlusion", "gully",
@@ -173,7 +175,8 @@ def row(case, on, off):
     with_, without = milliseconds(on, case), milliseconds(off, case)
     kind = next(o for o in case.off if o.name == off["technique"])
     return [f"`{off['technique']}`", f"{case.chapter[:2]} {case.scene}: {case.label}", shownTime(with_), shownTime(without),
-            f"{without / max(with_, 1e-3):.2f}", shownWork(off["counter"], on, off), shownProof(off, kind.exact), off["help"]]
+            f"{without / max(with_, 1e-3):.2f}", shownWork(off["counter"], on, off), shownProof(off, kind.exact),
+            off["help"]]
 
 
 HEADINGS = ["switched off", "where", "ms with", "ms without", "ratio", "work, with → without", "pixels that differ",
@@ -204,9 +207,9 @@ def page(results):
                "None of those that claim to be exact changed a bit of any picture.")
     lines = [
         "## Skips", "",
-        "Work that cannot change the picture is not done. `--no-skip NAME` does it all the same, `--skip-none` all of it, and "
-        "`--help` of each chapter lists the names. Here each is switched off alone (parameters that leave work out too are in "
-        "the same table): CPU time of a frame, or of the whole run for a bake; a counter of the work; and both pictures, "
+        "Work that cannot change the picture is not done. `--no-skip NAME` does it all the same, `--skip-none` all of it, "
+        "and `--help` of each chapter lists the names. Here each is switched off alone (parameters that leave work out too "
+        "are in the same table): CPU time of a frame, or of the whole run for a bake; a counter of the work; and both pictures, "
         "written as linear floats and compared bit by bit.", "",
         verdict, "",
         tables.markdown(HEADINGS, rows, ALIGNMENT), "",

@@ -12,8 +12,8 @@ def childrenCpuMs():
 
 
 def measure(point, runs):
-    """The sample of bench.runner.measure, and in it total_cpu_ms: loading, hierarchies, bakes and all frames. setup_ms is then
-    all but the timed frames, so that a long bake is not repeated as a fast point would be."""
+    """The sample of bench.runner.measure, and in it total_cpu_ms: loading, hierarchies, bakes and all frames. setup_ms is
+    then all but the timed frames, so that a long bake is not repeated as a fast point would be."""
     cpu, wall = childrenCpuMs(), time.monotonic()
     sample = runner.measure(point, runs, compare=False)
     sample["total_cpu_ms"] = childrenCpuMs() - cpu
