@@ -61,16 +61,22 @@ def read(path):
     return width, height, step, b"".join(rows)
 
 
-def write(path, width, height, channels, pixels):
-    """Small rather than quick: each row takes the filter whose differences are smallest, then the best deflate."""
+def smallest(line, above, channels):
+    """(filter, filtered row) of the three filters that undo in one addition."""
+    left = bytes(channels) + line[:-channels] if len(line) > channels else bytes(len(line))
+    candidates = [(0, line), (1, bytes((a - b) & 255 for a, b in zip(line, left))),
+                  (2, bytes((a - b) & 255 for a, b in zip(line, above)))]
+    return min(candidates, key=lambda c: sum(min(v, 256 - v) for v in c[1]))
+
+
+def write(path, width, height, channels, pixels, quick=False):
+    """Small rather than quick: each row takes the filter whose differences are smallest, then the best deflate. `quick`: for
+    pictures of flat colours, which pack well without filters."""
     stride = width * channels
     out, above = bytearray(), bytes(stride)
     for y in range(height):
         line = pixels[y * stride:(y + 1) * stride]
-        left = bytes(channels) + line[:-channels] if stride > channels else bytes(stride)
-        candidates = [(0, line), (1, bytes((a - b) & 255 for a, b in zip(line, left))),
-                      (2, bytes((a - b) & 255 for a, b in zip(line, above)))]
-        kind, best = min(candidates, key=lambda c: sum(min(v, 256 - v) for v in c[1]))
+        kind, best = (0, line) if quick else smallest(line, above, channels)
         out.append(kind)
         out += best
         above = line

@@ -6,6 +6,7 @@
     ./run 03 FLAGS               the same with the chapter's own flags; ./run 03 --help lists them
     ./run 03 --headless --scene contact --output a.png
     ./run --scene FILE --size WxH   every chapter of another scene (a name in assets/, or any .gltf or .glb file)
+    ./run bench                  run time against error of every technique: docs/benchmark.md; ./run bench --help
     ./run --build                only install, configure and build; the programs are build/release/bin/NN_name
     ./run --help
 
@@ -19,12 +20,15 @@ import sys
 import build
 import gallery
 import house
+from bench import command as bench
 
 
 def parse(words):
     """(chapter's name or None, its flags, options of ./run itself or None for help). Leaves with status 2 when wrong."""
     if words and words[0] in ("-h", "--help"):
         return None, [], None
+    if words and words[0] == "bench":
+        return None, words[1:], bench.parse(words[1:])
     parser = argparse.ArgumentParser(prog="./run", add_help=False, allow_abbrev=False)
     if words and not words[0].startswith("-"):
         name = house.findChapter(build.ROOT, words[0])
@@ -34,6 +38,7 @@ def parse(words):
     parser.add_argument("--build", action="store_true")
     parser.add_argument("--scene", default="courtyard")
     parser.add_argument("--size", default="512x512")
+    parser.set_defaults(bench=False)
     return None, [], parser.parse_args(words)
 
 
@@ -44,6 +49,8 @@ def main(words):
         return 0
     build.install("run")
     chapters = house.chapterNames(build.ROOT)
+    if options and options.bench:
+        return bench.main(options, chapters)
     build.build("release", [chapter] if chapter else [*chapters, "make_assets"])
     if chapter:
         program = build.folder("release") / "bin" / chapter

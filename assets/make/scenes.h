@@ -12,7 +12,8 @@ GlbWriter makeSpheres();
 GlbWriter makeGully();
 GlbWriter makeRoom();
 GlbWriter makeFence();
-GlbWriter makeKnot();
+/// `triangles`: of the knot itself, as near as whole numbers of rings allow; 70 000 are committed.
+GlbWriter makeKnot(int triangles = 70'000);
 GlbWriter makeCourtyard();
 
 }  // namespace penumbra::assets

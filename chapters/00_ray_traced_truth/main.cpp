@@ -30,6 +30,7 @@ class RayTracedTruth : public Chapter {
         parameters.add(
             "start", options_.start, {"exact", "rounded"},
             "where shadow rays start; rounded: at the hit rounded to float, and surfaces shadow themselves");
+        parameters.skips().declare(raysFacingAway);
     }
 
     void load(const Scene& scene, const Context*) override { tracer_.emplace(scene); }
@@ -93,7 +94,7 @@ class RayTracedTruth : public Chapter {
         const Surface surface = surfaceAt(frame.scene, hit);
         const glm::dvec3 toEye = -glm::normalize(ray.direction);
         ShadowRayOptions options = options_;
-        options.skip = frame.skip;
+        options.skip = frame.skips(raysFacingAway);
         const std::int64_t before = counts.traced;
 
         glm::dvec3 radiance =

@@ -6,16 +6,21 @@
 #include <string>
 
 #include "chapters/00_ray_traced_truth/light_samples.h"
+#include "common/app/skips.h"
 #include "common/truth/ray_tracer.h"
 
 namespace penumbra {
+
+inline constexpr Skip raysFacingAway{"rays-facing-away", "shadow_rays",
+                                     "no shadow ray where the surface faces away from the light: whatever "
+                                     "it finds, it is multiplied by 0"};
 
 struct ShadowRayOptions {
     bool adaptive = true;
     /// "exact": see ray_tracer.h. "rounded": starts at the point rounded to float, and its own triangle
     /// counts: acne.
     std::string start = "exact";
-    bool skip = true;  ///< no ray where the surface faces away from the sample
+    bool skip = true;  ///< raysFacingAway
 };
 
 /// Rays of one picture, added up.

@@ -68,13 +68,13 @@ class DepthState {
 void ShadowMap::render(Program& program, const Frame& frame, const Light& light, const LightFrustum& frustum,
                        const CasterDraw& draw) {
     const Key wanted{frame.gpu, program.id(), light.part, frustum, draw};
-    if (frame.skip && !frame.renderMapsAgain && held_ == wanted) return;
+    if (frame.skips(keptMaps) && !frame.renderMapsAgain && held_ == wanted) return;
     const PassScope scope(frame.passTimer, "depth");
 
     const glm::dmat4 lightClipFromWorld = frustum.clipFromWorld();
     const VisibleClusters visible =
-        frame.skip ? visibleClusters(frame.scene, Frustum(lightClipFromWorld, frustum.range))
-                   : allClusters(frame.scene);
+        frame.skips(clustersOffMap) ? visibleClusters(frame.scene, Frustum(lightClipFromWorld, frustum.range))
+                                    : allClusters(frame.scene);
     const DepthState state(*this, draw, frame.framebuffer);
     program.set("uLightClipFromWorld", glm::mat4(lightClipFromWorld));
     program.prepareToDraw();

@@ -10,6 +10,13 @@
 
 namespace penumbra {
 
+inline constexpr Skip keptMaps{"kept-maps", "shadow_maps_rendered",
+                               "a shadow map that would come out the same is kept from the frame before "
+                               "(a window, --still)"};
+inline constexpr Skip clustersOffMap{"clusters-off-map", "triangles_submitted",
+                                     "clusters of triangles that the light's frustum does not touch are not "
+                                     "drawn into its map: every one of them would be clipped"};
+
 /// How the casters are drawn into a map. Chapter 03 varies it; the defaults are the plain depth map.
 struct CasterDraw {
     bool cullClosed = true;  ///< back faces of closed parts are left out: they are never nearest to the light
@@ -25,8 +32,8 @@ class ShadowMap {
     ShadowMap(int size, DepthFormat format);
 
     /// Makes the map hold the depths seen through `frustum`. Does nothing if it holds them already (same
-    /// scene, frustum, program and way of drawing) and `frame.skip`. Draws only the clusters that can touch
-    /// the frustum (all, without skip: same map), and never the light's own part. `program` sets gl_Position
+    /// scene, frustum, program and way of drawing; keptMaps). Draws only the clusters that can touch the
+    /// frustum (clustersOffMap), and never the light's own part. `program` sets gl_Position
     /// from uLightClipFromWorld and attribute 0. Counts shadow_maps_rendered, triangles_submitted,
     /// triangles_culled, draw_calls. Leaves frame.framebuffer bound.
     void render(Program& program, const Frame& frame, const Light& light, const LightFrustum& frustum,

@@ -17,6 +17,11 @@ void ShadowOptions::declare(Parameters& parameters) {
         "fit", fit, {"scene", "view"},
         "what the map holds: all that the light reaches, so that it is drawn once, or what the camera "
         "sees of it, with finer texels whose edges crawl while the camera moves");
+    declareMapSkips(parameters.skips());
+}
+
+void declareMapSkips(Skips& skips) {
+    for (const Skip* skip : {&keptMaps, &clustersOffMap, &clustersUnseen}) skips.declare(*skip);
 }
 
 bool ShadowOptions::Fitted::sameAs(const Fitted& other) const {
@@ -72,7 +77,7 @@ void drawPicture(Program& program, const Frame& frame) {
 void drawPicture(Program& program, const Frame& frame, const GpuScene& gpu) {
     const Frustum seen(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y));
     const VisibleClusters visible =
-        frame.skip ? visibleClusters(frame.scene, seen) : allClusters(frame.scene);
+        frame.skips(clustersUnseen) ? visibleClusters(frame.scene, seen) : allClusters(frame.scene);
     const DrawCounts drawn = gpu.drawShaded(program, visible);
     frame.work["triangles_shaded"] += std::int64_t(drawn.triangles);
     frame.work["triangles_unseen"] += std::int64_t(frame.scene.triangleCount() - drawn.triangles);

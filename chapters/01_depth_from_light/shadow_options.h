@@ -9,13 +9,17 @@
 
 namespace penumbra {
 
+inline constexpr Skip clustersUnseen{"clusters-unseen", "triangles_shaded",
+                                     "clusters of triangles outside the camera's view are not drawn into "
+                                     "the picture: every one of them would be clipped"};
+
 struct ShadowOptions {
     int light = 0;
     int mapSize = 1024;
     std::string depthFormat = "24";
     std::string fit = "scene";
 
-    /// Declares --light, --map-size, --depth-format and --fit.
+    /// Declares --light, --map-size, --depth-format and --fit, and the skips of map and picture.
     void declare(Parameters& parameters);
     /// The chosen light. Throws UsageError when the scene has fewer.
     const Light& chosenLight(const Scene& scene) const;
@@ -43,6 +47,10 @@ struct ShadowOptions {
     mutable std::optional<Fitted> fitted_;
 };
 
+/// Of a chapter with maps that declares parameters of its own: the skips of ShadowMap::render and
+/// drawPicture.
+void declareMapSkips(Skips& skips);
+
 /// Sets the uniforms of lit.vert and lit.frag that don't belong to a material: camera, light, ambient term.
 void setCameraAndLight(Program& program, const Frame& frame, const ShadowOptions& options);
 
@@ -50,7 +58,7 @@ void setCameraAndLight(Program& program, const Frame& frame, const ShadowOptions
 /// 0.
 void clearPicture(const Frame& frame, const ShadowOptions& options);
 
-/// Draws what the camera of the frame can see (everything without `frame.skip`: same picture) with `program`.
+/// Draws what the camera of the frame can see (clustersUnseen) with `program`.
 /// Counts triangles_shaded, triangles_unseen and draw_calls.
 void drawPicture(Program& program, const Frame& frame);
 /// The same from `gpu`, whose triangles are those of the frame's scene in the same order.

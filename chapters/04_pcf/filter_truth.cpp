@@ -86,7 +86,9 @@ TruthImage filterTruth(const TruthRequest& request, const ShadowOptions& options
     ContentHash key;
     key.text(algorithm).geometry(scene).camera(request.camera).light(light).text(options.fit);
     key.number(std::int64_t(request.size.x)).number(std::int64_t(request.size.y));
-    key.number(std::int64_t(kernel.mapSize)).number(std::int64_t(kernel.shape)).number(kernel.texels);
+    // Not the number of texels, but their share of the map: the same filter on a finer map has the same
+    // answer.
+    key.number(std::int64_t(kernel.shape)).number(kernel.texels / double(kernel.mapSize));
     return cachedTruth(key, [&] {
         const PrimaryHits primary = primaryHits(tracer, request.camera, request.size);
         const ExactScene exact(scene);

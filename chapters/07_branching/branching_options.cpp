@@ -17,6 +17,7 @@ void BranchingOptions::declare(Parameters& parameters) {
                    "how they are skipped; if: a CPU rasteriser runs both sides and gains nothing");
     parameters.add("penumbra", penumbra, {"fixed", "contact-hardening"},
                    "width of the kernel; contact-hardening: of the area light, --radius at most");
+    parameters.skips().declare(keptMinMax);
 }
 
 void BranchingOptions::load(const Scene& scene) {

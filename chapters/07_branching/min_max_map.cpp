@@ -35,7 +35,7 @@ void MinMaxMap::Target::bind() const {
 void MinMaxMap::build(const ShadowMap& map, DepthRange range, const std::array<glm::vec2, 3>& slopes,
                       float reach, const Frame& frame) {
     const Key wanted{map.revision(), slopes, reach};
-    if (frame.skip && held_ == wanted) return;
+    if (frame.skips(keptMinMax) && held_ == wanted) return;
     const PassScope scope(frame.passTimer, "min-max");
 
     // A kernel that begins anywhere in a block and is 2 reach long ends in one of this many blocks.

@@ -11,6 +11,10 @@
 
 namespace penumbra {
 
+inline constexpr Skip keptMinMax{"kept-min-max", "min_max_maps_built",
+                                 "minima and maxima of a map that has not changed are kept from the frame "
+                                 "before"};
+
 /// Blocks of 8 x 8 texels, dilated by the kernel's reach: texel i stands for the blocks from i - before() on,
 /// `window()` of them in each direction. A minimum, of depth measured from one of three planes, that plane,
 /// and a maximum.
@@ -25,7 +29,7 @@ class MinMaxMap {
     explicit MinMaxMap(bool gather);
 
     /// Makes it that of `map`, for kernels that read texels up to `reach` away. `slopes`: of the three
-    /// planes, over the whole map, oriented. Does nothing if it is already and `frame.skip`; counts
+    /// planes, over the whole map, oriented. Does nothing if it is already (keptMinMax); counts
     /// min_max_maps_built. Leaves frame.framebuffer bound.
     void build(const ShadowMap& map, DepthRange range, const std::array<glm::vec2, 3>& slopes, float reach,
                const Frame& frame);

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "chapters/08_accumulation/received_light.h"
 #include "common/error.h"
 #include "common/math/polygon.h"
 #include "common/math/sampling.h"
@@ -63,6 +64,10 @@ void AccumulationOptions::declare(Parameters& parameters) {
     parameters.add(
         "masks", masks, {"logic-op", "stencil"},
         "how bits are set; stencil: a draw call for each bit, for OpenGL ES, which has no logic op");
+    for (const Skip* skip : {&receiversUnreached, &clustersNotBetween, &texelsUnreached, &texelsAgreeing,
+                             &trianglesOffBlock, &keptShadows, &keptTextures})
+        parameters.skips().declare(*skip);
+    declareMapSkips(parameters.skips());
 }
 
 std::vector<int> AccumulationOptions::chosenLights(const Scene& scene) const {

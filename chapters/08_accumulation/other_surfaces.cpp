@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "chapters/01_depth_from_light/shadow_options.h"
+
 namespace penumbra {
 
 std::vector<IndexRange> rangesOf(const std::vector<std::uint32_t>& triangles) {
@@ -30,7 +32,8 @@ OtherSurfaces::OtherSurfaces(const Frame& frame, const std::vector<Receiver>& re
     }
 
     const Frustum frustum(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y));
-    const VisibleClusters visible = frame.skip ? visibleClusters(scene, frustum) : allClusters(scene);
+    const VisibleClusters visible =
+        frame.skips(clustersUnseen) ? visibleClusters(scene, frustum) : allClusters(scene);
     std::map<int, std::pair<int, std::vector<std::uint32_t>>> byMaterial;  // a part of it, its triangles
     for (const std::uint32_t index : visible.clusters) {
         const Cluster& cluster = scene.clusters[index];

@@ -16,7 +16,7 @@ class OtherSurfaces {
 
     /// How many there are, lights' own surfaces not counted: those receive nothing.
     std::int64_t count() const { return count_; }
-    /// Draws those that the camera of the frame can see (all without `frame.skip`: same picture), materials
+    /// Draws those that the camera of the frame can see (clustersUnseen), materials
     /// set. Counts triangles_shaded and draw_calls.
     void draw(Program& program, const Frame& frame) const;
 

@@ -78,8 +78,9 @@ void ReceivedLight::update(const Frame& frame, const AccumulationOptions& option
             continue;
         }
         const std::string key = composedKey(options, output, i);
-        if (key == composed_[i] && frame.skip && !frame.renderMapsAgain) continue;
+        if (key == composed_[i] && frame.skips(keptTextures) && !frame.renderMapsAgain) continue;
         composed_[i] = key;
+        frame.work["textures_composed"] += 1;
         const PassScope scope(frame.passTimer, "compose");
         if (!textures_[i])
             textures_[i].emplace(receivers_[i].texels, sumFormat(frame.context->capabilities(), "32f"));

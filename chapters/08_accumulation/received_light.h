@@ -8,6 +8,11 @@
 
 namespace penumbra {
 
+inline constexpr Skip keptTextures{
+    "kept-textures", "textures_composed",
+    "a receiver's texture of light is kept from the frame before while none of "
+    "its shadows has changed (a window, --still)"};
+
 class ReceivedLight {
  public:
     /// What a texel holds.

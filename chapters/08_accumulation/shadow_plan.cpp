@@ -75,12 +75,12 @@ std::vector<glm::vec2> wholeTexture(const glm::ivec2& texels) {
 }
 
 ShadowPlan planShadows(const Scene& scene, const Receiver& receiver, const Light& light,
-                       const std::vector<LightPoint>& points, bool skip) {
+                       const std::vector<LightPoint>& points, const Skips& skips) {
     ShadowPlan plan;
     plan.receives = receives(receiver, light);
     if (!plan.receives) return plan;
     plan.occluders = occludersBetween(scene, receiver, light);
-    plan.reached = !plan.occluders.reaching.empty() || !skip;
+    plan.reached = !plan.occluders.reaching.empty() || !skips(receiversUnreached);
     if (!plan.reached) return plan;
     for (const LightPoint& point : points) {
         const auto projection =
@@ -90,12 +90,12 @@ ShadowPlan planShadows(const Scene& scene, const Receiver& receiver, const Light
         plan.projections.push_back(*projection);
     }
     plan.cullClosed = !isInsideAClosedPart(scene, light);
-    if (skip) {
+    if (!skips(clustersNotBetween)) plan.occluders.clusters = allClusters(scene);
+    if (skips(texelsUnreached)) {
         const BlockMap map = mixedBlocks(receiver, light, plan.occluders.reaching, blockTexels);
         appendBlocks(map, receiver.texels, plan.texels);
         plan.texelsInReach = map.mixedTexels;
     } else {
-        plan.occluders.clusters = allClusters(scene);
         plan.texels = wholeTexture(receiver.texels);
         plan.texelsInReach = std::int64_t(receiver.texels.x) * receiver.texels.y;
     }

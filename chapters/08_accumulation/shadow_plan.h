@@ -8,8 +8,20 @@
 #include "chapters/08_accumulation/projection.h"
 #include "chapters/08_accumulation/reach.h"
 #include "chapters/08_accumulation/receiver.h"
+#include "common/app/skips.h"
 
 namespace penumbra {
+
+inline constexpr Skip receiversUnreached{
+    "receivers-unreached", "receivers_shadowed",
+    "no light point is asked for a receiver that nothing can shadow: all "
+    "of the light arrives"};
+inline constexpr Skip clustersNotBetween{"clusters-not-between", "occluders_drawn",
+                                         "clusters of triangles outside the space between light and receiver "
+                                         "are not projected: they cover no texel of it"};
+inline constexpr Skip texelsUnreached{"texels-unreached", "texels_in_reach",
+                                      "blocks of texels that no triangle can shadow are not weighed: all of "
+                                      "the light arrives"};
 
 struct ShadowPlan {
     bool receives = false;  ///< false: the receiver faces away, or lies behind the light: dark everywhere
@@ -25,9 +37,10 @@ struct ShadowPlan {
 /// The same for all texels.
 std::vector<glm::vec2> wholeTexture(const glm::ivec2& texels);
 
-/// `skip`: cull as above; else every part but the light's own may shadow every texel: the same shadows.
+/// `skips`: the three above. With all of them off every part but the light's own may shadow every texel: the
+/// same shadows.
 ShadowPlan planShadows(const Scene& scene, const Receiver& receiver, const Light& light,
-                       const std::vector<LightPoint>& points, bool skip);
+                       const std::vector<LightPoint>& points, const Skips& skips);
 
 /// The light points as weight.glsl wants them: metres from the receiver's corner, u edge along x; scaled so
 /// that the weights of all points add up to at most 1 at any texel. Zero where `on` is false.

@@ -20,7 +20,7 @@ void StoredShadow::update(const Request& request, ShadowPasses& passes) {
     const Frame& frame = request.frame;
     const std::string shadowKey = request.options.shadowKey(frame.seed),
                       lightKey = request.options.lightKey();
-    const bool kept = frame.skip && !frame.renderMapsAgain && shadowKey == shadowKey_;
+    const bool kept = frame.skips(keptShadows) && !frame.renderMapsAgain && shadowKey == shadowKey_;
     if (!kept) drawShadows(request, passes);
     // The masks know each point by itself: other weights need no occluder again. Sums have forgotten.
     const bool same = kept && lightKey == lightKey_;
@@ -40,7 +40,7 @@ void StoredShadow::drawShadows(const Request& request, ShadowPasses& passes) {
     {
         const PassScope scope(frame.passTimer, "plan");
         plan_ = planShadows(frame.scene, request.receiver, request.whole,
-                            options.points(request.whole, options.samples, frame.seed), frame.skip);
+                            options.points(request.whole, options.samples, frame.seed), frame.skips);
     }
     if (!plan_.reached) {
         sums_.reset();
@@ -103,15 +103,16 @@ void StoredShadow::addWeights(const Request& request, ShadowPasses& passes) {
     const PassScope scope(request.frame.passTimer, "resolve");
     const PointWeights weights = weightsOf(request);
     scale_ = weights.scale;
-    const bool everywhere = !request.frame.skip || request.options.weights == "sum";
+    const bool everywhere = !request.frame.skips(texelsAgreeing) || request.options.weights == "sum";
     passes.mask.resolve(request.receiver, plan_, weights.values, request.options.weights, everywhere, *masks_,
                         *packed_);
+    weighedEverywhere_ = everywhere;
 }
 
 void StoredShadow::solve(const Request& request) {
     const PassScope scope(request.frame.passTimer, "exact");
     const ExactIrradiance visible = exactIrradiance(request.receiver, request.lit, plan_.occluders.reaching,
-                                                    request.frame.skip, request.progress);
+                                                    request.frame.skips(trianglesOffBlock), request.progress);
     const std::vector<double> all = unoccludedIrradiance(request.receiver, request.lit);
     std::vector<float> values;
     values.reserve(4 * all.size());
@@ -125,7 +126,8 @@ void StoredShadow::solve(const Request& request) {
 
 GLuint StoredShadow::unoccluded(const Request& request) {
     const std::string key = request.options.shadowKey(request.frame.seed) + request.options.lightPart;
-    if (unoccluded_ && key == unoccludedKey_ && request.frame.skip && !request.frame.renderMapsAgain)
+    if (unoccluded_ && key == unoccludedKey_ && request.frame.skips(keptShadows) &&
+        !request.frame.renderMapsAgain)
         return unoccluded_->id();
     const PassScope scope(request.frame.passTimer, "unoccluded");
     unoccludedKey_ = key;
@@ -140,11 +142,12 @@ void StoredShadow::count(const Request& request) {
     work["receivers"] += 1;
     work["receivers_facing_away"] += !plan_.receives;
     work["receivers_unreached"] += plan_.receives && !plan_.reached;
+    work["receivers_shadowed"] += plan_.reached;
     const std::int64_t texels = std::int64_t(request.receiver.texels.x) * request.receiver.texels.y;
     work["texels"] += texels;
     work["texels_in_reach"] += plan_.texelsInReach;
     // Once for each change: a timed frame does not read back.
-    const std::string key = shadowKey_ + lightKey_ + (request.frame.skip ? "" : " all");
+    const std::string key = shadowKey_ + lightKey_;
     if (plan_.reached && key != countedKey_) {
         const std::vector<glm::vec2> sums = readSums();
         mixed_ = std::count_if(sums.begin(), sums.end(),
@@ -152,6 +155,7 @@ void StoredShadow::count(const Request& request) {
     }
     countedKey_ = key;
     work["texels_mixed"] += plan_.reached ? mixed_ : 0;
+    if (masks_) work["texels_weighed"] += weighedEverywhere_ ? texels : mixed_;
 }
 
 }  // namespace penumbra

@@ -10,6 +10,17 @@
 
 namespace penumbra {
 
+inline constexpr Skip keptShadows{
+    "kept-shadows", "occluders_drawn",
+    "the shadow of a light on a receiver, and what would arrive without it, are "
+    "kept from the frame before while neither has changed (a window, --still)"};
+inline constexpr Skip texelsAgreeing{"texels-agreeing", "texels_weighed",
+                                     "no weights are added up where all light points are seen, or none: the "
+                                     "share is 1 or 0 (--method mask)"};
+inline constexpr Skip trianglesOffBlock{"triangles-off-block", "triangle_tests",
+                                        "a texel does not look at triangles that shadow no texel of its "
+                                        "block (--method exact)"};
+
 /// What all receivers share.
 struct ShadowPasses {
     AccumulatePass accumulate;
@@ -63,6 +74,7 @@ class StoredShadow {
     std::string shadowKey_, lightKey_, unoccludedKey_, countedKey_;
     double scale_ = 1.0;
     std::int64_t mixed_ = 0;
+    bool weighedEverywhere_ = false;  ///< not only where points disagree: texelsAgreeing
     std::uint64_t revision_ = 0;
 };
 

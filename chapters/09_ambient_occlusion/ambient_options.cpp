@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "chapters/01_depth_from_light/shadow_options.h"
+#include "chapters/09_ambient_occlusion/pixel_rays.h"
 #include "common/error.h"
 #include "common/scene/light.h"
 
@@ -54,6 +56,11 @@ void AmbientOptions::declare(Parameters& parameters) {
                          "writes the scene with its baked values as a .glb; draw it with --method stored");
     parameters.add("truth-rays", truthRays, 64, 65536, "",
                    "rays at a pixel of the exact answer; the report says its standard error");
+    declareAmbientSkips(parameters);
+}
+
+void declareAmbientSkips(Parameters& parameters) {
+    for (const Skip* skip : {&raysToOpenSky, &keptRays, &clustersUnseen}) parameters.skips().declare(*skip);
 }
 
 AmbientRays AmbientOptions::rays() const {

@@ -21,6 +21,8 @@ struct SkyLight {
 
 /// The parameter --sky, for Sky::named: of every chapter that has one.
 void declareSky(Parameters& parameters, std::string& sky);
+/// The skips of rays and bakes, and of drawing their picture.
+void declareAmbientSkips(Parameters& parameters);
 
 struct AmbientOptions {
     int samples = 64, truthRays = 4096;

@@ -40,7 +40,8 @@ Scene withoutSharedVertices(const Scene& scene) {
 }
 
 void BakedAmbient::update(const Frame& frame, const AmbientOptions& options) {
-    const std::string visibilityKey = options.visibilityKey(frame.seed) + (frame.skip ? "" : "!");
+    const std::string visibilityKey =
+        options.visibilityKey(frame.seed) + (frame.skips(raysToOpenSky) ? "" : "!");
     const std::string lightKey = options.lightKey();
     const bool stale = visibilityKey != visibilityKey_;
     if (stale) {
@@ -82,7 +83,7 @@ void BakedAmbient::bake(const Frame& frame, const AmbientOptions& options) {
     if (options.method == "bits") {
         bakeBitsOf(frame, options);
     } else {
-        const BakeSettings settings{options.rays(), frame.seed, options.share, frame.skip};
+        const BakeSettings settings{options.rays(), frame.seed, options.share, frame.skips(raysToOpenSky)};
         AmbientBake baked = perTriangle_ ? bakeTriangles(scene_, *bundle_, settings, frame.progress)
                             : options.values == "least-squares"
                                 ? bakeVerticesLeastSquares(scene_, *bundle_, settings, 4, frame.progress)
@@ -100,7 +101,7 @@ void BakedAmbient::bakeBitsOf(const Frame& frame, const AmbientOptions& options)
             fmt::format("--samples {}: --method bits stores 64 to 1024 directions", options.samples));
     const AmbientRays rays = options.rays();
     BakedBits baked = penumbra::bakeBits(scene_, *bundle_, options.samples, rays.reach, partialFile(scene_),
-                                         frame.progress);
+                                         frame.progress, frame.skips(raysToOpenSky));
     bits_ = std::move(baked.bits);
     work_ = baked.work;
     values_.resize(bits_->points);

@@ -37,7 +37,7 @@ void PixelRays::tracePixel(const Frame& frame, const SkyLight& light, AmbientRay
         return;
     }
     faceTheEye(hit, ray);
-    rays.nothingAbove = frame.skip && planes_.nothingAbove(hit, rays.reach.range);
+    rays.nothingAbove = frame.skips(raysToOpenSky) && planes_.nothingAbove(hit, rays.reach.range);
     const auto directions = castAmbientRays(tracer_, hit, hit.shadingNormal, rays,
                                             hashSeed(pixel.x, pixel.y, frame.seed), counts.traced);
     const AmbientValue value = averageOf(directions);
@@ -126,17 +126,21 @@ void PixelRays::refine(const Frame& frame, const AmbientOptions& options, bool i
 void PixelRays::update(const Frame& frame, const AmbientOptions& options, bool inParts) {
     inParts = inParts && frame.view != "profile";  // of which one row is traced anyway
     const std::string key = options.visibilityKey(frame.seed) + options.lightKey() +
-                            (frame.skip ? "" : " all") + (frame.view == "profile" ? " middle row" : "");
-    if (frame.renderMapsAgain || key != key_ || size_ != frame.size || camera_ != frame.camera)
+                            (frame.skips(raysToOpenSky) ? "" : " all") +
+                            (frame.view == "profile" ? " middle row" : "");
+    const bool done = step_ == 0;
+    if (frame.renderMapsAgain || (done && !frame.skips(keptRays)) || key != key_ || size_ != frame.size ||
+        camera_ != frame.camera)
         start(frame, key, inParts);
-    if (step_ > 0) {
+    const bool traces = step_ > 0;
+    if (traces) {
         key_.clear();  // should the sky's file be broken, the next frame tries again
         refine(frame, options, inParts);
         key_ = key;
         upload(size_);
     }
     frame.work["primary_rays"] = std::int64_t(hits_.size());
-    frame.work["rays_traced"] = counts_.traced;
+    frame.work["rays_traced"] = traces ? counts_.traced : 0;
     frame.work["rays_saved"] = counts_.saved;
     frame.work["pixels_receiving"] = counts_.receiving;
     if (step_ > 0) frame.work["rows_left"] = rows() - row_;

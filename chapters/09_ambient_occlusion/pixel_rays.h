@@ -8,16 +8,21 @@
 #include "chapters/08_accumulation/texel_target.h"
 #include "chapters/09_ambient_occlusion/ambient_options.h"
 #include "chapters/09_ambient_occlusion/open_planes.h"
+#include "chapters/09_ambient_occlusion/vertex_bake.h"
 #include "common/app/chapter.h"
 
 namespace penumbra {
+
+inline constexpr Skip keptRays{"kept-rays", "rays_traced",
+                               "what the pixels' rays found is kept from the frame before while nothing has "
+                               "changed (a window, --still)"};
 
 class PixelRays {
  public:
     explicit PixelRays(const Scene& scene) : tracer_(scene), planes_(scene) {}
 
-    /// Traces, unless nothing has changed since the latest frame. Counts primary_rays, rays_traced,
-    /// rays_saved (towards what nothing can be in the way of) and pixels_receiving.
+    /// Traces, unless nothing has changed since the latest frame (keptRays). Counts primary_rays,
+    /// rays_traced, rays_saved (towards what nothing can be in the way of) and pixels_receiving.
     ///
     /// `inParts`: for a window, where that would take seconds for each step of the mouse. One pixel of each
     /// block of 16 x 16 is traced at first, and every further frame refines for a tenth of a second; while

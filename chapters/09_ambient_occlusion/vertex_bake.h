@@ -5,11 +5,16 @@
 #include <vector>
 
 #include "chapters/09_ambient_occlusion/ambient_estimate.h"
+#include "common/app/skips.h"
 #include "common/scene/scene.h"
 #include "common/truth/parallel.h"
 #include "common/truth/ray_bundle.h"
 
 namespace penumbra {
+
+inline constexpr Skip raysToOpenSky{"rays-to-open-sky", "rays_traced",
+                                    "no ray from where nothing rises above the tangent plane (within "
+                                    "--range): all of them would get away"};
 
 struct BakeSettings {
     /// `count`: as accurate as so many rays at every point, each point on its own. 16: a preview; 256: RMSE
@@ -19,9 +24,7 @@ struct BakeSettings {
     /// Neighbours use one another's rays, where that is shown to cost no accuracy (shared_rays.h). false:
     /// exactly `count` rays at every point.
     bool share = true;
-    /// Points above whose tangent plane there is nothing within the range are 1 without a ray. Changes no
-    /// value.
-    bool skip = true;
+    bool skip = true;  ///< raysToOpenSky
 };
 
 struct BakeWork {

@@ -47,9 +47,10 @@ struct BakedBits {
 /// Bits of every vertex of the scene by rays (point sampled), `directions` 64 to 1024. A non-empty
 /// `partialFile` keeps what is finished, about once every two seconds, and is taken up again by the next call
 /// with the same scene, directions and reach: after Ctrl-C, or a kill. It is removed at the end. Throws Error
-/// if it cannot be written.
+/// if it cannot be written. `skip`: raysToOpenSky.
 BakedBits bakeBits(const Scene& scene, const RayBundle& bundle, int directions, const AmbientReach& reach,
-                   const std::filesystem::path& partialFile = {}, const ProgressCallback& progress = {});
+                   const std::filesystem::path& partialFile = {}, const ProgressCallback& progress = {},
+                   bool skip = true);
 
 /// Radiance of the sky in each direction, for `relight`. A part of the sky is switched off by setting its
 /// entries to 0.

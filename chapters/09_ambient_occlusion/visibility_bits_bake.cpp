@@ -37,10 +37,11 @@ std::vector<std::uint32_t> similarOrder(std::span<const glm::vec3> directions) {
 
 class BitsBake {
  public:
-    BitsBake(const Scene& scene, const RayBundle& bundle, int directions, double range)
+    BitsBake(const Scene& scene, const RayBundle& bundle, int directions, double range, bool skip)
         : scene_(scene),
           bundle_(bundle),
           range_(range),
+          skip_(skip),
           reach_(largestCoordinate(scene.bounds)),
           horizon_(scene),
           points_(vertexPoints(scene)),
@@ -68,7 +69,9 @@ class BitsBake {
 
     const Scene& scene_;
     const RayBundle& bundle_;
-    double range_, reach_;
+    double range_;
+    bool skip_;  ///< raysToOpenSky
+    double reach_;
     Horizon horizon_;
     BakePoints points_;
     VisibilityBits bits_;  ///< one for each of points_
@@ -91,7 +94,7 @@ void BitsBake::bakePoint(std::size_t index, std::vector<BundleRay>& rays, std::v
         asked.push_back(l);
     }
     std::vector<std::uint8_t> blocked(rays.size(), 0);
-    if (horizon_.anythingAbove(points_, point, range_)) {
+    if (!skip_ || horizon_.anythingAbove(points_, point, range_)) {
         bundle_.blocked(rays, float(range_), blocked);
         rays_ += std::int64_t(rays.size());
     } else {
@@ -165,10 +168,10 @@ std::string keyOf(const Scene& scene, int directions, double range) {
 }  // namespace
 
 BakedBits bakeBits(const Scene& scene, const RayBundle& bundle, int directions, const AmbientReach& reach,
-                   const std::filesystem::path& partialFile, const ProgressCallback& progress) {
+                   const std::filesystem::path& partialFile, const ProgressCallback& progress, bool skip) {
     if (directions < 64 || directions > 1024)
         throw Error("visibility bits need 64 to 1024 directions, not " + std::to_string(directions));
-    BitsBake bake(scene, bundle, directions, reach.range);
+    BitsBake bake(scene, bundle, directions, reach.range, skip);
     Keeper keeper(partialFile, keyOf(scene, directions, reach.range));
     std::size_t done = 0;
     if (const auto partial = keeper.load()) done = bake.takeUp(*partial);

@@ -77,7 +77,7 @@ void AccumulatedOcclusion::State::begin(const Frame& frame, const OcclusionOptio
     else
         receivers.drawPixels(frame);
     horizons.reset();
-    if (frame.skip) horizons.emplace(receivers.readNormals());
+    if (frame.skips(mapsBelowHorizon)) horizons.emplace(receivers.readNormals());
     sphere = boundingSphere(frame.scene);
     sums.clear(receivers.size());
     frames = 0;
@@ -114,8 +114,9 @@ void AccumulatedOcclusion::State::addBatch(const Frame& frame, const OcclusionOp
     maps->render(depth, frame, frusta);
     // Pass 3: every receiver looks all of them up.
     const PassScope scope(frame.passTimer, "look-ups");
-    sums.add(receivers, *maps, frame.scene.bounds,
-             {directions, radiances, frusta, frame.skip, frame.view == "work", options.bias});
+    sums.add(
+        receivers, *maps, frame.scene.bounds,
+        {directions, radiances, frusta, frame.skips(lookUpsFacingAway), frame.view == "work", options.bias});
 }
 // [end:batches]
 
@@ -137,7 +138,7 @@ AmbientTextures AccumulatedOcclusion::update(const Frame& frame, const Occlusion
                radiancesOf(sky, directions),
                state.programIds()};
     const bool same = state.held && *state.held == wanted;
-    if (!same || (!options.rotate && (!frame.skip || frame.renderMapsAgain))) {
+    if (!same || (!options.rotate && (!frame.skips(keptOcclusion) || frame.renderMapsAgain))) {
         state.begin(frame, options);  // Pass 1: where the receivers are
         state.held = std::move(wanted);
     }

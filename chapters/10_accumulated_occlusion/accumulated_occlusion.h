@@ -24,6 +24,13 @@ struct AmbientTextures {
     bool perVertex = false;
 };
 
+inline constexpr Skip keptOcclusion{"kept-occlusion", "shadow_maps_rendered",
+                                    "sums to which nothing is to be added are kept from the frame before (a "
+                                    "window, --still)"};
+inline constexpr Skip mapsBelowHorizon{"maps-below-horizon", "shadow_maps_rendered",
+                                       "no map from a direction that is below the horizon of every receiver: "
+                                       "it counts 0"};
+
 class AccumulatedOcclusion {
  public:
     AccumulatedOcclusion();
@@ -32,7 +39,7 @@ class AccumulatedOcclusion {
     AccumulatedOcclusion& operator=(AccumulatedOcclusion&&) noexcept;
 
     /// Brings the textures up to date for this frame: valid until the next call. Does nothing if they are up
-    /// to date already and `frame.skip` (and maps need not be drawn again); with `options.rotate` adds
+    /// to date already (keptOcclusion; and maps need not be drawn again); with `options.rotate` adds
     /// another `options.samples` directions as long as nothing else changes, up to 16384
     /// (directions_left says how many more; the window goes on drawing). A(x) = sum V max(0, n.l) / sum
     /// max(0, n.l) over all directions so far. Counts directions_added, shadow_maps_rendered,

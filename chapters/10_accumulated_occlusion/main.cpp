@@ -6,6 +6,7 @@
 #include "chapters/01_depth_from_light/shadow_options.h"
 #include "chapters/09_ambient_occlusion/ambient_truth.h"
 #include "chapters/09_ambient_occlusion/backdrop.h"
+#include "chapters/09_ambient_occlusion/bake_file.h"
 #include "chapters/10_accumulated_occlusion/accumulated_occlusion.h"
 #include "common/app/pass_timer.h"
 #include "common/error.h"
@@ -21,6 +22,9 @@ class AccumulatedOcclusionChapter : public Chapter {
         declareSky(parameters, light_.sky);
         parameters.add("truth-rays", light_.truthRays, 64, 65536, "",
                        "rays at a pixel of the exact answer; the report says its standard error");
+        parameters.addOrFile("save", save_, {"none"},
+                             "writes the scene with the values of --method vertices as a .glb; draw it with "
+                             "chapter 09's --method stored");
     }
 
     void load(const Scene&, const Context*) override {
@@ -33,12 +37,16 @@ class AccumulatedOcclusionChapter : public Chapter {
     }
 
     void render(const Frame& frame) override {
+        if (save_ != "none" && !options_.perVertex())
+            throw UsageError("--save: only --method vertices makes values that a .glb can hold");
         // [begin:passes]
         // Pass 1: where the receivers are: what the pixels see, or the vertices.
         // Passes 2 and 3, for a batch of directions at a time: a shadow map from each of them; every receiver
         // looks them all up, and adds what it finds to its sums.
         // Pass 4: the sums become means.
         const AmbientTextures textures = occlusion_->update(frame, options_, light_.light(frame.scene).sky);
+        if (save_ != "none" && frame.work.contains("directions_added"))
+            saveAmbient(frame.scene, occlusion_->vertexValues(frame.scene), save_);
 
         // Pass 5: the picture, as chapter 09 draws it.
         const PassScope scope(frame.passTimer, "picture");
@@ -81,6 +89,7 @@ class AccumulatedOcclusionChapter : public Chapter {
 
     OcclusionOptions options_;
     AmbientOptions light_;  ///< its sky
+    std::string save_ = "none";
     std::optional<AccumulatedOcclusion> occlusion_;
     std::optional<Backdrop> backdrop_;
     std::optional<Program> pixels_, vertices_;

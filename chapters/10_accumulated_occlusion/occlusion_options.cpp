@@ -1,5 +1,9 @@
 #include "chapters/10_accumulated_occlusion/occlusion_options.h"
 
+#include "chapters/01_depth_from_light/shadow_options.h"
+#include "chapters/10_accumulated_occlusion/accumulated_occlusion.h"
+#include "chapters/10_accumulated_occlusion/visibility_sums.h"
+
 namespace penumbra {
 
 void OcclusionOptions::declare(Parameters& parameters) {
@@ -17,6 +21,12 @@ void OcclusionOptions::declare(Parameters& parameters) {
                    "where A is added up; vertices: once, whatever the camera does, and blended between them");
     parameters.add("rotate", rotate,
                    "turns the pattern in every frame and goes on adding up while nothing changes");
+    declareOcclusionSkips(parameters);
+}
+
+void declareOcclusionSkips(Parameters& parameters) {
+    for (const Skip* skip : {&mapsBelowHorizon, &lookUpsFacingAway, &keptOcclusion, &clustersUnseen})
+        parameters.skips().declare(*skip);
 }
 
 }  // namespace penumbra

@@ -24,4 +24,7 @@ struct OcclusionOptions {
     bool operator==(const OcclusionOptions&) const = default;
 };
 
+/// The skips of AccumulatedOcclusion, and of drawing its picture.
+void declareOcclusionSkips(Parameters& parameters);
+
 }  // namespace penumbra

@@ -11,6 +11,7 @@
 #include "chapters/08_accumulation/texel_target.h"
 #include "chapters/10_accumulated_occlusion/receivers.h"
 #include "chapters/10_accumulated_occlusion/sky_maps.h"
+#include "common/app/skips.h"
 #include "common/gl/fullscreen.h"
 
 namespace penumbra {
@@ -32,12 +33,16 @@ class TexturePair {
     GlFramebuffer framebuffer_;
 };
 
+inline constexpr Skip lookUpsFacingAway{"look-ups-facing-away", "",
+                                        "a receiver that faces away from all directions of a batch of maps "
+                                        "looks none of them up: each counts 0"};
+
 /// A batch of maps: layer i holds what `directions`[i] sees, and the sky there has `radiances`[i].
 struct SkyBatch {
     std::span<const glm::dvec3> directions;
     std::span<const glm::dvec3> radiances;
     std::span<const LightFrustum> frusta;
-    bool skip = true;        ///< receivers that face away from all of them are left out
+    bool skip = true;        ///< lookUpsFacingAway
     bool countWork = false;  ///< count look-ups in place of light
     float bias = 1.0f;       ///< multiple of the derived bound
 };

@@ -27,6 +27,8 @@ void BentOptions::declare(Parameters& parameters) {
     parameters.add("map-size", mapSize, 16, 8192, "texels",
                    "side of a shadow map of --source maps; 64: leaks, 4096: slow");
     parameters.add("truth-rays", truthRays, 64, 65536, "", "rays at a pixel of the exact answer");
+    declareAmbientSkips(parameters);
+    declareOcclusionSkips(parameters);
 }
 
 void BentOptions::requireSense() const {

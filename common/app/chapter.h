@@ -55,7 +55,7 @@ struct Frame {
                                 ///< viewport set on entry
     WorkCounters& work;
     std::uint32_t seed;
-    bool skip;  ///< false: --skip-none, do all the work (same picture)
+    const Skips& skips;  ///< `if (frame.skips(keptMaps))`: which work may be left out; the same picture
     /// CPU chapters put their picture here (1 or 3 channels).
     FloatImage* cpuPicture;
     const ProgressCallback& progress;
@@ -81,7 +81,7 @@ struct TruthRequest {
 class Chapter {
  public:
     virtual ~Chapter() = default;
-    /// Declares the parameters; called once, before anything else.
+    /// Declares the parameters and the skips; called once, before anything else.
     virtual void declare(Parameters& parameters) = 0;
     /// Called once for each scene, with the context current (if any): create GL objects here.
     virtual void load(const Scene& scene, const Context* context) = 0;

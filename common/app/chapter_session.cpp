@@ -77,7 +77,7 @@ void ChapterSession::render(const FrameRequest& request) {
                       .framebuffer = request.framebuffer,
                       .work = work_,
                       .seed = options_.seed,
-                      .skip = options_.skip,
+                      .skips = parameters_.skips(),
                       .cpuPicture = &cpuPicture_,
                       .progress = progress_,
                       .passTimer = request.passTimer,

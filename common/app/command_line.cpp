@@ -19,7 +19,10 @@ void addToParser(CLI::App& parser, const std::vector<Flag>& flags) {
     parser.allow_extras();
     for (const Flag& flag : flags) {
         const auto apply = [&flag](const CLI::results_t& texts) {
-            flag.apply(texts.empty() ? "" : texts.back());
+            if (flag.repeatable)
+                for (const std::string& text : texts) flag.apply(text);
+            else
+                flag.apply(texts.empty() ? "" : texts.back());
             return true;
         };
         if (flag.value == Flag::Value::none) {
@@ -30,7 +33,8 @@ void addToParser(CLI::App& parser, const std::vector<Flag>& flags) {
         }
         CLI::Option* option = parser.add_option("--" + flag.name, CLI::callback_t(apply));
         option->expected(flag.value == Flag::Value::optional ? 0 : 1, 1);
-        option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+        option->multi_option_policy(flag.repeatable ? CLI::MultiOptionPolicy::TakeAll
+                                                    : CLI::MultiOptionPolicy::TakeLast);
     }
 }
 
@@ -128,6 +132,10 @@ std::optional<Options> parseCommandLine(const ChapterInfo& info, Parameters& par
     parseFlags(flags, argc, argv);
     if (asksFor("--version", argc, argv)) {
         fmt::print("{} (Penumbra {})\n", info.name, versionText);
+        return std::nullopt;
+    }
+    if (asksFor("--list-skips", argc, argv)) {
+        fmt::print("{}\n", parameters.skips().toJson());
         return std::nullopt;
     }
     if (asksFor("--list-parameters", argc, argv)) {

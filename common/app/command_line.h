@@ -35,13 +35,12 @@ struct Options {
     bool still = false;  ///< timed frames may keep maps from the frame before
     bool passTimes = false;
     std::uint32_t seed = 1;
-    bool skip = true;  ///< false: --skip-none
     bool quiet = false;
 };
 
-/// Parses the command line of a chapter; values of its parameters go straight into `parameters`. None: the
-/// command was answered on standard output already (--help, --version, --list-parameters). Throws UsageError:
-/// one line that names the flag, the value given and what is allowed.
+/// Parses the command line of a chapter; values of its parameters and skips go straight into `parameters`.
+/// None: the command was answered on standard output already (--help, --version, --list-parameters). Throws
+/// UsageError: one line that names the flag, the value given and what is allowed.
 std::optional<Options> parseCommandLine(const ChapterInfo& info, Parameters& parameters, int argc,
                                         const char* const* argv);
 

@@ -134,15 +134,22 @@ void addProgramFlags(Flags& flags, Options& o) {
                          requireChoice("api", t, {"desktop", "es"});
                          o.api = t == "es" ? Api::es : Api::desktop;
                      }});
-    flags.push_back({"skip-none", "", group,
-                     "do all the work, even what cannot change the picture: same picture, more time",
-                     switchFlag, [&o](const std::string&) { o.skip = false; }});
     flags.push_back({"quiet", "", group, "no summary and no progress; errors are still printed", switchFlag,
                      [&o](const std::string&) { o.quiet = true; }});
     flags.push_back(
         {"list-parameters", "", group, "print this chapter's parameters as JSON", switchFlag, {}});
+    flags.push_back({"list-skips", "", group, "print this chapter's skips as JSON", switchFlag, {}});
     flags.push_back({"version", "", group, "print the version", switchFlag, {}});
     flags.push_back({"help", "", group, "print this", switchFlag, {}});
+}
+
+void addSkipFlags(Flags& flags, Skips& skips) {
+    const char* group = "What is skipped (the picture stays the same to the bit, and only time is saved)";
+    flags.push_back({"no-skip", "NAME", group,
+                     "do this work all the same; see Skips below; can be given several times", valued,
+                     [&skips](const std::string& t) { skips.switchOff(t); }, true});
+    flags.push_back({"skip-none", "", group, "do all that work: every skip is off", switchFlag,
+                     [&skips](const std::string&) { skips.switchAllOff(); }});
 }
 
 std::string parameterHelp(const Parameter& p) {
@@ -181,6 +188,7 @@ std::vector<Flag> chapterFlags(const ChapterInfo& info, Parameters& parameters, 
     addPictureFlags(flags, info, options);
     addOutputFlags(flags, options);
     addProgramFlags(flags, options);
+    addSkipFlags(flags, parameters.skips());
     addParameterFlags(flags, parameters);
     return flags;
 }

@@ -18,9 +18,11 @@ struct Flag {
     std::string help;
     Value value = Value::required;
     std::function<void(const std::string& text)> apply;  ///< throws UsageError
+    bool repeatable = false;                             ///< false: the last one counts
 };
 
-/// Every flag of a chapter: the common ones, writing into `options`, then one for each parameter.
+/// Every flag of a chapter: the common ones, writing into `options`, then one for each parameter; and those
+/// of its skips.
 std::vector<Flag> chapterFlags(const ChapterInfo& info, Parameters& parameters, Options& options);
 
 /// What --help prints, at most 100 columns wide.

@@ -47,9 +47,14 @@ std::string drawnView(const ChapterSession& session) {
 
 void timeFrames(ChapterSession& session, FrameRequest request, Report& report) {
     const Options& options = session.options();
+    PassTimer first(session.context() != nullptr);
+    if (options.passTimes) request.passTimer = &first;
     if (session.context())
         session.renderOffScreen(request);  // compiles shaders; a CPU chapter has nothing to warm up
     finish(session);
+    request.passTimer = nullptr;
+    // What no later frame does again: a bake. Passes of every frame are timed below, without the compiler.
+    for (const auto& [pass, times] : first.times()) report.passesMs[pass] = statisticsOf(times);
     request.renderMapsAgain = !options.still;
     std::vector<double> wall, cpu;
     for (int run = 0; run < options.runs; ++run) {
@@ -86,7 +91,8 @@ Report describe(ChapterSession& session, const std::string& view) {
     report.antialias = options.antialias;
     report.camera = options.camera;
     report.seed = options.seed;
-    report.skip = options.skip;
+    report.skip = !session.parameters().skips().allOff();
+    report.skipsOff = session.parameters().skips().off();
     report.still = options.still;
     const Context* context = session.context();
     report.renderer = context ? context->renderer() : "CPU";

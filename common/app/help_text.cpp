@@ -47,6 +47,12 @@ void appendViews(std::string& out, const ChapterInfo& info) {
     appendEntry(out, "error", "how far the picture is from it, in false colour (with --compare-truth)");
 }
 
+void appendSkips(std::string& out, const std::vector<Skip>& skips) {
+    if (skips.empty()) return;
+    out += "\nSkips (--no-skip NAME)\n";
+    for (const Skip& skip : skips) appendEntry(out, skip.name, skip.help);
+}
+
 void appendExamples(std::string& out, const std::string& name, const Parameters& parameters) {
     out += "\nExamples\n";
     out += fmt::format("  {} --scene contact --output out/contact.png\n", name);
@@ -72,6 +78,7 @@ std::string helpText(const ChapterInfo& info, const std::vector<Flag>& flags, co
     appendExamples(out, info.name, parameters);
     appendFlags(out, flags);
     appendViews(out, info);
+    appendSkips(out, parameters.skips().all());
     out += "\nEnvironment\n";
     appendEntry(out, "PENUMBRA_ASSETS", "folder of the scenes, instead of assets/");
     appendEntry(out, "PENUMBRA_SHADERS", "folder of the shaders, instead of shaders/");

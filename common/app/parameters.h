@@ -1,11 +1,13 @@
 // A chapter's parameters, each declared once: it becomes a flag, a slider, a column of the report, an axis of
-// the benchmark.
+// the benchmark. And its skips, which are declared and switched beside them.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "common/app/skips.h"
 
 namespace penumbra {
 
@@ -43,8 +45,12 @@ class Parameters {
     /// For the report and --list-parameters.
     std::string toJson(bool valuesOnly) const;
 
+    Skips& skips() { return skips_; }
+    const Skips& skips() const { return skips_; }
+
  private:
     std::vector<Parameter> parameters_;
+    Skips skips_;
 };
 
 /// The shortest decimal that is this value in single precision: "0.1", "512", "1e-06".

@@ -76,6 +76,7 @@ std::string reportJson(const Report& report) {
               {"antialias", report.antialias},
               {"seed", report.seed},
               {"skip", report.skip},
+              {"skips_off", report.skipsOff},
               {"still", report.still},
               {"renderer", report.renderer},
               {"backend", report.backend},

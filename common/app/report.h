@@ -44,7 +44,8 @@ struct Report {
     int antialias = 1;
     int camera = 0;
     std::uint32_t seed = 0;
-    bool skip = true;
+    bool skip = true;                   ///< false: all skips are off
+    std::vector<std::string> skipsOff;  ///< names
     bool still = false;
     std::string renderer;  ///< GL_RENDERER, or "CPU"
     std::string backend;   ///< "osmesa", ...; "none" for a CPU chapter

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "chapters/01_depth_from_light/shadow_options.h"
 #include "common/app/chapter.h"
 #include "common/gl/render_target.h"
 #include "common/scene/find_scene.h"
@@ -63,6 +64,8 @@ class ChapterHarness {
     }
 
     void set(const std::string& parameter, const std::string& value) { parameters_.set(parameter, value); }
+    /// Those that the chapter declared; `harness.skips().switchOff("kept-maps")` is --no-skip kept-maps.
+    Skips& skips() { return parameters_.skips(); }
     void set(const Settings& settings) {
         for (const auto& [parameter, value] : settings) set(parameter, value);
     }
@@ -73,6 +76,9 @@ class ChapterHarness {
             target_ = std::make_unique<RenderTarget>(size, context_.capabilities());
         target_->bind();
         work.clear();
+        skips_ = parameters_.skips();
+        declareMapSkips(skips_);  // tests use the frame for maps of their own too
+        if (!skip) skips_.switchAllOff();
         return {.scene = scene,
                 .gpu = &gpu_,
                 .context = contextInstead ? contextInstead : &context_,
@@ -82,7 +88,7 @@ class ChapterHarness {
                 .framebuffer = target_->framebuffer(),
                 .work = work,
                 .seed = 0,
-                .skip = skip,
+                .skips = skips_,
                 .cpuPicture = &unused_,
                 .progress = silent_,
                 .passTimer = passTimer,
@@ -133,6 +139,7 @@ class ChapterHarness {
     GpuScene gpu_;
     std::unique_ptr<Chapter> chapter_;
     Parameters parameters_;
+    Skips skips_;  ///< of the latest frame
     std::unique_ptr<RenderTarget> target_;
     std::unique_ptr<RayTracer> tracer_;
     ProgressCallback silent_;

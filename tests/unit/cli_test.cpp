@@ -19,6 +19,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr Skip half{"half", "", "half of it is known"};
+constexpr Skip rest{"rest", "", "the other half is known too"};
+
 /// visibility: 1 right of the middle, else 0, plus `offset`; its exact answer has no offset and none for the
 /// top row.
 class TinyChapter : public Chapter {
@@ -27,6 +30,7 @@ class TinyChapter : public Chapter {
         parameters.add("offset", offset_, -4.0f, 4.0f, "", "added to the visibility");
         parameters.add("seconds", seconds_, 0, 60, "s", "how long a frame takes");
         parameters.add("fault", fault_, {"none", "error", "memory", "unknown"}, "what goes wrong");
+        for (const Skip* skip : {&half, &rest}) parameters.skips().declare(*skip);
     }
     void load(const Scene&, const Context*) override {}
     void render(const Frame& frame) override {
@@ -41,7 +45,7 @@ class TinyChapter : public Chapter {
         if (fault_ == "unknown") throw std::out_of_range("something else");
         frame.work["frames"] += 1;
         frame.work["maps"] += frame.renderMapsAgain ? 1 : 0;
-        frame.work["skip"] += frame.skip ? 1 : 0;
+        for (const Skip* skip : {&half, &rest}) frame.work[skip->name] += frame.skips(*skip) ? 1 : 0;
         const bool scalar = frame.view == "visibility";
         *frame.cpuPicture = FloatImage(frame.size.x, frame.size.y, scalar ? 1 : 3, 0.25f);
         if (scalar) *frame.cpuPicture = step(frame.size, offset_);
@@ -141,8 +145,23 @@ TEST_F(Cli, StillAndSkipNoneReachTheChapter) {
     ASSERT_EQ(result.status, 0) << result.err;
     const Json report = Json::parse(result.out);
     EXPECT_EQ(report["work"]["maps"], 0);
-    EXPECT_EQ(report["work"]["skip"], 0);
+    EXPECT_EQ(report["work"]["half"], 0);
+    EXPECT_EQ(report["work"]["rest"], 0);
     EXPECT_EQ(report["skip"], false);
+    EXPECT_EQ(report["skips_off"], Json::parse(R"(["half", "rest"])"));
+}
+
+TEST_F(Cli, OneSkipIsSwitchedOffAloneAndAMisspeltOneRefused) {
+    const ProgramResult result = run({"--report", "-", "--no-skip", "rest", "--size", "4x4"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Json report = Json::parse(result.out);
+    EXPECT_EQ(report["work"]["half"], 1);
+    EXPECT_EQ(report["work"]["rest"], 0);
+    EXPECT_EQ(report["skip"], true) << "not all of them are off";
+    EXPECT_EQ(report["skips_off"], Json::parse(R"(["rest"])"));
+    expectRefusal({"--no-skip", "rests"}, 2,
+                  "--no-skip rests: must be one of half, rest; did you mean rest?");
+    EXPECT_EQ(Json::parse(run({"--list-skips"}).out)[1]["help"], rest.help);
 }
 
 TEST_F(Cli, TruthAndErrorAreViews) {

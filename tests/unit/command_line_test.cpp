@@ -10,6 +10,9 @@
 namespace penumbra {
 namespace {
 
+constexpr Skip unseen{"unseen", "", "what nobody sees is not drawn"};
+constexpr Skip kept{"kept-maps", "", "what has not changed is kept"};
+
 struct Line {
     ChapterInfo info{
         .name = "99_test", .idea = "a test", .views = {{"color", "shaded"}, {"visibility", "S", true}}};
@@ -24,6 +27,7 @@ struct Line {
         parameters.add("bias", bias, -2.0f, 8.0f, "texels", "how much");
         parameters.add("front", front, "which");
         parameters.add("method", method, {"none", "slope"}, "which one");
+        for (const Skip* skip : {&unseen, &kept}) parameters.skips().declare(*skip);
     }
     Options parse(std::vector<const char*> arguments) {
         arguments.insert(arguments.begin(), "99_test");
@@ -49,7 +53,6 @@ TEST(CommandLine, WithoutFlagsThereAreTheDefaultsOfTheHelp) {
     EXPECT_EQ(o.runs, 1);
     EXPECT_EQ(o.seed, 1u);
     EXPECT_EQ(o.antialias, 1);
-    EXPECT_TRUE(o.skip);
     EXPECT_FALSE(o.exposureEv.has_value());
     EXPECT_TRUE(o.output.empty());
 }
@@ -63,7 +66,7 @@ TEST(CommandLine, EveryFlagArrives) {
          "4294967295",   "--skip-none", "--exposure", "-1.5",    "--antialias", "4",       "--quiet",
          "--pass-times", "--still"});
     EXPECT_TRUE(o.headless && o.compareTruth && o.quiet && o.passTimes && o.still);
-    EXPECT_FALSE(o.skip);
+    EXPECT_TRUE(line.parameters.skips().allOff());
     EXPECT_EQ(o.backend, Backend::egl);
     EXPECT_EQ(o.api, Api::es);
     EXPECT_EQ(o.scene, "a/b.glb");
@@ -91,6 +94,26 @@ TEST(CommandLine, EveryParameterIsAFlag) {
     EXPECT_FALSE(line.front);
     EXPECT_EQ(line.bias, -2.0f);
     EXPECT_EQ(line.samples, 2) << "the last one counts, so that a script's flags can be overridden";
+}
+
+TEST(CommandLine, SkipsAreSwitchedOffByNameOrAllAtOnce) {
+    using Names = std::vector<std::string>;
+    const auto off = [](const std::vector<const char*>& arguments) {
+        Line line;
+        line.parse(arguments);
+        return line.parameters.skips().off();
+    };
+    EXPECT_EQ(off({}), Names{});
+    EXPECT_EQ(off({"--no-skip", "kept-maps"}), Names{"kept-maps"});
+    EXPECT_EQ(off({"--no-skip=kept-maps", "--no-skip", "unseen", "--no-skip", "unseen"}),
+              (Names{"unseen", "kept-maps"}));
+    EXPECT_EQ(off({"--no-skip", "unseen", "--skip-none"}), (Names{"unseen", "kept-maps"}));
+    Line line;
+    EXPECT_EQ(line.refusal({"--no-skip", "kept-map"}),
+              "--no-skip kept-map: must be one of unseen, kept-maps; did you mean kept-maps?");
+    EXPECT_EQ(line.refusal({"--no-skip", ""}), "--no-skip \"\": must be one of unseen, kept-maps");
+    EXPECT_EQ(line.refusal({"--no-skip"}), "--no-skip: needs a value; see --help");
+    EXPECT_NE(line.refusal({"--no-skip", "unseen", "kept-maps"}), "") << "one name a flag, as all flags have";
 }
 
 TEST(CommandLine, FilesAndFiguresImplyHeadless) {
@@ -157,7 +180,7 @@ TEST(CommandLine, EveryMistakeNamesTheFlagTheValueAndWhatIsAllowed) {
 
 TEST(CommandLine, QuestionsAreAnsweredAndNothingElseIsDone) {
     Line line;
-    for (const char* question : {"--help", "-h", "--version", "--list-parameters"}) {
+    for (const char* question : {"--help", "-h", "--version", "--list-parameters", "--list-skips"}) {
         const char* arguments[] = {"99_test", question};
         testing::internal::CaptureStdout();
         EXPECT_FALSE(parseCommandLine(line.info, line.parameters, 2, arguments).has_value());
@@ -174,6 +197,8 @@ TEST(CommandLine, TheHelpExplainsEveryFlagViewAndParameterInHundredColumns) {
         EXPECT_NE(help.find("  --" + flag.name), std::string::npos) << flag.name;
         EXPECT_FALSE(flag.help.empty()) << flag.name;
     }
+    EXPECT_NE(help.find("Skips (--no-skip NAME)\n  unseen"), std::string::npos);
+    EXPECT_NE(help.find("what has not changed is kept"), std::string::npos);
     EXPECT_NE(help.find("visibility"), std::string::npos);
     EXPECT_NE(help.find("[-2 to 8 texels (default 1)]"), std::string::npos);
     EXPECT_NE(help.find("[none, slope (default slope)]"), std::string::npos);

@@ -26,6 +26,7 @@ Report example() {
     report.camera = 1;
     report.seed = 77;
     report.skip = false;
+    report.skipsOff = {"kept-maps"};
     report.still = true;
     report.notes = {"no light: a sun was added"};
     report.parametersJson = R"({"kernel-width": 3, "bias": 0.1})";
@@ -61,6 +62,7 @@ TEST(Report, HoldsEveryKeyOfTheContract) {
     EXPECT_EQ(json["camera"], 1);
     EXPECT_EQ(json["seed"], 77);
     EXPECT_EQ(json["skip"], false);
+    EXPECT_EQ(json["skips_off"], Json::parse(R"(["kept-maps"])"));
     EXPECT_EQ(json["still"], true);
     EXPECT_EQ(json["notes"], Json::parse(R"(["no light: a sun was added"])"));
     EXPECT_EQ(json["parameters"], Json::parse(R"({"kernel-width": 3, "bias": 0.1})"));

@@ -1,0 +1,357 @@
+"""./run bench: what is measured is kept and merged, an interrupted run goes on, curves say what is cheapest, and the page is
+what its results make."""
+import contextlib
+import io
+import json
+import re
+import unittest
+import xml.etree.ElementTree as xml
+from unittest import mock
+
+from temporary_tree import ROOT, TreeTest
+
+import build
+import png
+import reports
+from bench import bounds, browse, command, curves, document, error, estimates, files, raster, results, runner, sections, store
+from bench import svg, techniques, work
+from bench.figures import Curve, Figure
+from bench.measuring import Measuring
+from bench.points import Point
+from bench.progress import Progress
+
+# Stands for a chapter: error and time follow from --samples, and --samples 13 fails. Each start is a line of `started`.
+PROGRAM = """#!/usr/bin/env python3
+import json, sys
+flags = sys.argv[1:]
+value = lambda name: flags[flags.index("--" + name) + 1]
+open("started", "a").write(" ".join(flags) + "\\n")
+samples, runs = int(value("samples")), int(value("runs"))
+if samples == 13:
+    print("first line", file=sys.stderr)
+    sys.exit("no luck with thirteen")
+ms = {"median": 2.0 * samples, "min": 1.0 * samples, "max": 9.0, "runs": runs}
+report = {"time": {"setup_ms": 5.0, "frame_ms": ms, "frame_cpu_ms": ms, "passes_ms": {"bake": {"median": 7.0}}},
+          "work": {"shadow_rays": 10 * samples, "pixels_receiving": 10}, "renderer": "fake GL", "backend": "none"}
+if "--compare-truth" in flags:
+    report["error"] = {"quantity": "visibility", "truth": "ray traced, 512 rays a pixel, standard error 1.0e-03",
+                       "against": "area light", "pixels": 9, "rmse": 0.5 / samples, "mean_abs": 0, "max_abs": 1, "bias": -0.25}
+    report["error_area_light"] = {"against": "area light", "rmse": 0.3, "max_abs": 1, "bias": 0.1}
+open(value("report"), "w").write(json.dumps(report))
+"""
+
+
+def point(samples, technique="00 rays", scene="knot", **more):
+    return Point("error", scene, technique, "00_a", "samples", samples, ("--samples", str(samples)), "area", **more)
+
+
+def result(technique, ms, rmse, scene="knot", quantity="area", **more):
+    figures = {"rmse": rmse, "max_abs": 1.0, "bias": 0.0, **more}
+    return {"id": f"{technique}{ms}{scene}", "section": "error", "scene": scene, "technique": technique, "chapter": "00_a",
+            "axis": "samples", "value": 4, "quantity": quantity, "flags": [], "wall_ms": ms, "wall_min_ms": ms, "cpu_ms": ms,
+            "cpu_min_ms": ms, "once_ms": 0.0, "setup_ms": 1.0, "memory_mb": 9.0, "memory_with_truth": False, "passes": 1,
+            "runs": 3, "work": {"shadow_rays": 40, "pixels_receiving": 10}, "error": figures, "area_light": None,
+            "renderer": "fake GL"}
+
+
+class BenchTest(TreeTest):
+    def setUp(self):
+        super().setUp()
+        self.write("build/release/bin/00_a", PROGRAM, executable=True)
+        self.write("shaders/a.glsl", "void main() {}")
+        self.write("tools/bench/browse.html", (ROOT / "tools" / "bench" / "browse.html").read_text())
+        patched = mock.patch.object(build, "ROOT", self.root)
+        patched.start()
+        self.addCleanup(patched.stop)
+        self.forget()
+
+    @staticmethod
+    def forget():
+        """What this process remembers of files that a build would have changed."""
+        reports.fileDigest.cache_clear()
+        reports.inputsDigest.cache_clear()
+
+    def measure(self, points, quick=False):
+        measuring = Measuring(points, quick, Progress(io.StringIO()))
+        measuring.run()
+        return measuring
+
+    def started(self):
+        return self.read("started").splitlines() if (self.root / "started").exists() else []
+
+
+class MeasuringTest(BenchTest):
+    def testRepeatsLieInterleavedAndTheTruthIsAskedForOnce(self):
+        self.measure([point(2), point(4)])
+        samples = [re.search(r"--samples (\d+)", line)[1] for line in self.started()]
+        self.assertEqual(samples, ["2", "4", "2", "4", "2", "4"])
+        self.assertEqual(["--compare-truth" in line for line in self.started()], 2 * [True] + 4 * [False])
+
+    def testSlowPointsAreStartedOnceAndQuickOnesTimedMoreOften(self):
+        self.measure([point(2), point(4000)])
+        runs = [re.search(r"--samples (\d+).*--runs (\d+)", line).groups() for line in self.started()]
+        self.assertEqual(runs, [("2", "1"), ("4000", "1"), ("2", "12"), ("2", "12")])
+
+    def testAResultHoldsWhatTheReportsSay(self):
+        found = self.measure([point(4, once=("bake",))]).results()[0]
+        self.assertEqual((found["wall_ms"], found["wall_min_ms"], found["once_ms"], found["passes"]), (8.0, 4.0, 7.0, 3))
+        self.assertEqual(found["error"]["rmse"], 0.125)
+        self.assertEqual(found["error"]["standard_error"], 0.001)
+        self.assertEqual(found["area_light"]["rmse"], 0.3)
+        self.assertFalse(found["memory_with_truth"])
+        self.assertGreater(found["memory_mb"], 1.0)
+
+    def testARunGoesOnWhereItWas(self):
+        with mock.patch.object(runner, "measure", side_effect=[runner.measure(point(2)), KeyboardInterrupt]):
+            with self.assertRaises(KeyboardInterrupt):
+                self.measure([point(2), point(4)])
+        before = len(self.started())
+        store.path().write_text(store.path().read_text() + '{"id": "torn')  # as if the machine had stopped
+        self.measure([point(2), point(4)], quick=True)
+        self.assertEqual(len(self.started()) - before, 3, "one pass of two was there")
+        self.assertEqual(len(self.measure([point(2), point(4)], quick=True).results()), 2)
+        self.assertEqual(len(self.started()) - before, 3, "all was there")
+
+    def testAProgramOrShaderThatChangedIsMeasuredAgain(self):
+        for path, text in (("build/release/bin/00_a", PROGRAM + "\n"), ("shaders/a.glsl", "void main() { discard; }")):
+            self.measure([point(2)], quick=True)
+            before = len(self.started())
+            self.write(path, text, executable=True)
+            self.forget()
+            self.measure([point(2)], quick=True)
+            self.assertEqual(len(self.started()) - before, 2, path)
+
+    def testAFailureIsToldAndTheRestGoesOn(self):
+        measuring = self.measure([point(13), point(2)])
+        self.assertEqual(list(measuring.failures.values()), ["no luck with thirteen"])
+        self.assertEqual([found["value"] for found in measuring.results()], [2])
+
+    def testProgressOnATerminalIsOneLineThatIsCleared(self):
+        terminal = io.StringIO()
+        terminal.isatty = lambda: True
+        progress = Progress(terminal)
+        progress.show(1, 2, 61.0, "a")
+        progress.clear()
+        self.assertIn("1 of 2, 1:01 left: a", terminal.getvalue())
+        self.assertNotIn("\n", terminal.getvalue())
+        self.assertTrue(terminal.getvalue().endswith("\r"))
+
+
+class CurvesTest(unittest.TestCase):
+    def curve(self, *points, technique="a"):
+        return curves.Curve(technique, [(ms, error_, {}) for ms, error_ in points])
+
+    def testBetweenTwoSettingsOnLogarithmicAxes(self):
+        self.assertAlmostEqual(curves.timeTo(self.curve((1, 0.1), (100, 0.001)), 0.01)[0], 10.0)
+
+    def testASettingThatIsSlowerAndWorseDoesNotCount(self):
+        self.assertAlmostEqual(curves.timeTo(self.curve((1, 0.1), (50, 0.2), (100, 0.001)), 0.01)[0], 10.0)
+
+    def testNeverAndFromTheStart(self):
+        self.assertIsNone(curves.timeTo(self.curve((1, 0.1), (9, 0.05)), 0.01))
+        self.assertEqual(curves.timeTo(self.curve((3, 0.1), (9, 0.05)), 0.2)[0], 3)
+
+    def testWhatIsExactIsReachedAtItsOwnTime(self):
+        self.assertEqual(curves.timeTo(self.curve((1, 0.1), (50, 0.0)), 0.01)[0], 50)
+
+    def testSlope(self):
+        self.assertAlmostEqual(curves.slope([(1, 1), (4, 0.5), (16, 0.25)]), -0.5)
+        self.assertIsNone(curves.slope([(1, 1), (2, 2)]))
+        self.assertIsNone(curves.slope([(1, 1), (1, 2), (1, 3)]))
+
+    def testTheFrontHasNothingQuickerAndAsRight(self):
+        a, b = self.curve((1, 0.1), (10, 0.01)), self.curve((2, 0.1), (5, 0.05), (20, 0.02), technique="b")
+        self.assertEqual(curves.front([a, b]), {("a", 0), ("a", 1), ("b", 1)})
+
+
+class PageTest(BenchTest):
+    RESULTS = [result("00 rays", 10.0, 0.1), result("00 rays", 1000.0, 0.001), result("08 mask", 5.0, 0.1),
+               result("08 mask", 50.0, 0.001), result("08 exact", 300.0, 0.0),
+               result("00 rays", 10.0, 0.4, "courtyard"), result("00 rays", 90.0, 0.2, "courtyard")]
+
+    def levels(self, results_):
+        return {cells[1]: cells for cells in
+                (error.levelRow(estimates.curvesOf(results_, "knot", "area"), "knot", "area", level) for level in error.LEVELS)}
+
+    def testNamesTheCheapestTheRunnerUpAndTheAlternative(self):
+        rows = self.levels(self.RESULTS)
+        self.assertEqual(rows["0.01"], ["knot", "0.01", "08 mask", "15.8", "00 rays", "6.3", "100", "6.3"])
+
+    def testSaysWhereNobodyComes(self):
+        row = error.levelRow(estimates.curvesOf(self.RESULTS, "courtyard", "area"), "courtyard", "area", 0.1)
+        self.assertEqual(row[2], "none; 00 rays comes to 0.2")
+
+    def testDoesNotCompareBelowTheNoiseOfTheExactAnswer(self):
+        noisy = [result("00 rays", 10.0, 0.1, standard_error=0.01), result("00 rays", 100.0, 0.0105, standard_error=0.01)]
+        rows = self.levels(noisy)
+        self.assertIn("noise", rows["0.01"][2])
+        self.assertEqual(rows["0.03"][2], "00 rays")
+        figures = {"rmse": 0.05, "standard_error": 0.03}
+        self.assertAlmostEqual(estimates.errorOf(figures, 2.0), 0.02)
+
+    def testAFilteredShadowCountsAgainstTheAreaLight(self):
+        filtered = {**result("07 min-max", 4.0, 0.01, quantity="disk"), "area_light": {"rmse": 0.2, "bias": 0.1, "max_abs": 1}}
+        self.assertEqual(estimates.curvesOf([filtered], "knot", "area")[0].points[0][1], 0.2)
+        self.assertEqual(estimates.curvesOf([filtered], "knot", "disk")[0].points[0][1], 0.01)
+        self.assertIn("0.200", error.areaTable([filtered]))
+
+    def testThePageIsMadeOfTheResultsAlone(self):
+        machine = {"processor": "P", "cores": 2, "renderer": "R", "date": "D", "commit": "C", "load": 0.5}
+        self.write("docs/x", "")
+        self.write("docs/images/bench_old.svg", "")
+        document.write(machine, self.RESULTS)
+        page = self.read("docs/benchmark.md")
+        self.assertEqual(document.stale(self.root), "")
+        self.assertIn("| knot | 0.01 | 08 mask |", page)
+        shown = re.findall(r"\]\((images/[^)]*)\)", page)
+        self.assertEqual(shown, ["images/bench_error_area_knot.svg"])
+        self.assertTrue((self.root / "docs" / shown[0]).is_file())
+        self.assertFalse((self.root / "docs/images/bench_old.svg").exists(), "a picture that no page shows")
+        for path, old, new in (("docs/benchmark.md", "6.3", "9.9"), ("docs/benchmark.json", '"wall_ms":5.0', '"wall_ms":4.0'),
+                               (f"docs/{shown[0]}", "polyline", "line")):
+            with self.subTest(path):
+                text = self.read(path)
+                self.assertIn(old, text)
+                self.write(path, text.replace(old, new, 1))
+                self.assertTrue(document.stale(self.root))
+                self.write(path, text)
+
+    def testFilesForReadersOfTables(self):
+        self.assertEqual(results.rounded({"a": [1.23456, 7], "b": "x"}), {"a": [1.235, 7], "b": "x"})
+        rows = files.csvOf(self.RESULTS).splitlines()
+        self.assertEqual(len(rows), 1 + len(self.RESULTS))
+        self.assertTrue(all(row.count(",") == rows[0].count(",") for row in rows))
+        self.assertEqual(json.loads(files.jsonOf({"cores": 2}, self.RESULTS))["results"], self.RESULTS)
+
+    def testThePageToBrowsePointsNowhere(self):
+        machine = {"processor": "P", "cores": 2, "renderer": "R", "date": "D", "commit": "C", "load": 0.5}
+        lines, figures = error.page(self.RESULTS)
+        page = browse.page(machine, self.RESULTS, figures, {f.name: svg.render(f) for f in figures})
+        self.assertEqual(page.count("<svg"), 2)
+        self.assertEqual(re.findall(r'(?:src|href)="[^"]', page), [], "the page points outside itself")
+        self.assertEqual(re.findall(r"%[A-Z]+%", page), [], "a part of the page was not filled in")
+        self.assertIn('"technique": "08 exact"', page)
+
+    def testEveryTechniqueSaysWhy(self):
+        for technique in techniques.TECHNIQUES:
+            self.assertTrue(technique.why and not technique.why.endswith("."), technique.name)
+        self.assertEqual(work.facts({"shadow_rays": 40, "pixels_receiving": 10}), "4 shadow rays a pixel")
+        self.assertEqual(work.facts({}), "")
+
+
+class FigureTest(TreeTest):
+    FIGURE = Figure("a", "a < b", "ms", "error", [Curve("one", [(1, 0.1), (10, 0.01), (100, 0.001)], [1]),
+                                                  Curve("exact", [(20, None)], dashed=True)])
+
+    def testTheSvgIsWellFormedAndStable(self):
+        drawn = svg.render(self.FIGURE)
+        self.assertEqual(drawn, svg.render(self.FIGURE))
+        marks = [node for node in xml.fromstring(drawn).iter() if node.tag.endswith("circle")]
+        filled = [node for node in marks if node.get("fill") != "#ffffff" and node.get("cx") < "600"]
+        self.assertEqual(len(filled), 1, "one point of the curve is on the front")
+
+    def testThePngShowsTheSame(self):
+        raster.render(self.FIGURE, self.root / "a.png")
+        width, height, channels, pixels = png.read(self.root / "a.png")
+        self.assertEqual((width, height, channels), (1720, 960, 3))
+        blue = bytes.fromhex("4477aa")
+        self.assertIn(blue, {pixels[i:i + 3] for i in range(0, len(pixels), 3)})
+
+
+class BoundsTest(BenchTest):
+    def check(self, entries, said=""):
+        self.write("tools/bench/bounds.json", json.dumps(entries))
+        self.write("build/release/bin/a_bench", f"#!/usr/bin/env python3\nprint({said!r})\n", executable=True)
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+            return bounds.check(), out.getvalue()
+
+    def entry(self, **more):
+        return {"name": "n", "what": "w", "issue": 3, "program": "a_bench 7", "find": r"^a (?P<over>\S+) (?P<under>\S+)$", **more}
+
+    def testTheWorstOfSeveralLinesCounts(self):
+        said = "a 6 2\nb 1 1\na 10 2"
+        self.assertEqual(self.check([self.entry(at_least=3)], said)[0], 0)
+        status, printed = self.check([self.entry(at_least=4)], said)
+        self.assertEqual(status, 1)
+        self.assertIn("FALLS SHORT", printed)
+        self.assertIn("0 of 1 hold; short: n", printed)
+        self.assertEqual(self.check([self.entry(at_most=5)], said)[0], 0)
+        self.assertEqual(self.check([self.entry(at_most=4.9)], said)[0], 1)
+
+    def testARatioThatIsNotPrintedIsNoRatio(self):
+        status, printed = self.check([self.entry(at_least=0)], "nothing")
+        self.assertEqual(status, 1)
+        self.assertIn("printed nothing like", printed)
+
+    def testPointsAreDivided(self):
+        entry = {"name": "n", "what": "w", "issue": 3, "over": point(8).id, "under": point(4).id, "figure": "cpu_ms"}
+        with mock.patch.object(error, "points", lambda quick: [point(4), point(8)]):
+            self.assertEqual(self.check([{**entry, "at_most": 2}])[0], 0)
+            self.assertEqual(self.check([{**entry, "at_most": 1.9}])[0], 1)
+            self.assertIn("mend tools/bench/bounds.json", self.check([{**entry, "over": "x", "at_most": 1}])[1])
+
+    def testTheProjectsBoundsNameProgramsAndPointsThatExist(self):
+        with mock.patch.object(build, "ROOT", ROOT):
+            known = {p.id for section in sections.ALL for p in section.points(False)}
+            for bound in bounds.load():
+                with self.subTest(bound["name"]):
+                    self.assertEqual(len({"at_least", "at_most"} & set(bound)), 1)
+                    if "program" in bound:
+                        name = bound["program"].split()[0]
+                        self.assertTrue((ROOT / "tests" / "bench" / f"{name}.cpp").is_file())
+                        self.assertRegex(bound["find"], r"\(\?P<(ratio|over)>")
+                    else:
+                        self.assertLessEqual({bound["over"], bound["under"]}, known)
+
+
+class CommandTest(BenchTest):
+    def run_(self, *words, points=(point(2), point(4))):
+        said = io.StringIO()
+        with mock.patch.object(error, "points", lambda quick: list(points)), contextlib.redirect_stdout(said), \
+                contextlib.redirect_stderr(said), mock.patch.object(sections, "ALL", [error]):
+            return command.run(command.parse(list(words))), said.getvalue()
+
+    def testAWholeRunWritesThePage(self):
+        self.write("docs/images/x", "")
+        status, said = self.run_()
+        self.assertEqual(status, 0, said)
+        self.assertEqual(document.stale(self.root), "")
+        for path in ("out/benchmark.html", "out/bench/results.csv", "out/bench/results.json",
+                     "out/bench/error_area_knot.png", "out/bench/error_area_knot.svg"):
+            self.assertTrue((self.root / path).is_file(), path)
+
+    def testAQuickOrPartialRunDoesNot(self):
+        self.assertEqual(self.run_("--quick")[0], 0)
+        self.assertFalse((self.root / "docs/benchmark.md").exists())
+        other = point(4, scene="contact")
+        status, said = self.run_("--scene", "knot", points=(point(2), other))
+        self.assertIn("1 points are not measured yet", said)
+        self.assertFalse((self.root / "docs/benchmark.md").exists())
+
+    def testAFailureFailsTheRun(self):
+        status, said = self.run_(points=(point(2), point(13)))
+        self.assertEqual(status, 1)
+        self.assertIn("failed: error/knot/area/00 rays/samples=13: no luck with thirteen", said)
+        self.assertTrue((self.root / "out/benchmark.html").is_file())
+
+    def testAWrongCommandLine(self):
+        for words in (["--section", "none"], ["--scene", "none"], ["--fast"]):
+            with self.subTest(words), contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit) as left:
+                command.parse(words)
+            self.assertEqual(left.exception.code, 2)
+
+
+class CommittedPageTest(unittest.TestCase):
+    def testThePageIsWhatItsResultsMake(self):
+        self.assertEqual(document.stale(ROOT), "")
+
+    def testPointsHaveNamesOfTheirOwn(self):
+        for quick in (True, False):
+            every = [p for section in sections.ALL for p in section.points(quick)]
+            self.assertTrue(every)
+            self.assertEqual(len({p.id for p in every}), len(set(every)))
+
+
+if __name__ == "__main__":
+    unittest.main()

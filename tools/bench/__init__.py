@@ -1,0 +1,1 @@
+"""./run bench: run time against error of every technique, measured, plotted and written up."""

@@ -1,0 +1,115 @@
+"""./run bench: the command line, and what happens in which order.
+
+    ./run bench                     every section: out/benchmark.html, out/bench/, and docs/benchmark.md; under 30 minutes
+    ./run bench --quick             three scenes, few settings: out/ only, under 3 minutes
+    ./run bench --section NAME      only this section; may be repeated
+    ./run bench --scene NAME        only this scene; may be repeated
+    ./run bench --peers             also other programs that estimate the same, where they are installed
+    ./run bench --check             compare ratios with tools/bench/bounds.json; exit 1 and say which fell short
+
+What was measured is kept in out/bench/results.jsonl and measured again only when a program, shader or asset has changed: a
+run that was interrupted goes on where it was. docs/benchmark.md is written when every point of every section is there.
+"""
+import argparse
+import sys
+import time
+
+import build
+from bench import bounds, document, files, results, sections, store
+from bench.measuring import Measuring
+from bench.progress import Progress, clock
+
+
+def parse(words):
+    """Leaves with status 2 when they are wrong."""
+    parser = argparse.ArgumentParser(prog="./run bench", description=__doc__, allow_abbrev=False,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="few points of three scenes")
+    parser.add_argument("--check", action="store_true", help="ratios against their bounds")
+    parser.add_argument("--peers", action="store_true", help="also what other programs make of the same")
+    parser.add_argument("--section", action="append", choices=sections.names(), help="only this one")
+    parser.add_argument("--scene", action="append", metavar="NAME", help="only this one")
+    options = parser.parse_args(words)
+    options.bench = True
+    scenes = {point.scene for section in sections.ALL for point in section.points(False)}
+    for scene in options.scene or ():
+        if scene not in scenes:
+            parser.error(f"argument --scene: no point has scene {scene}; there are {', '.join(sorted(scenes))}")
+    return options
+
+
+def chosenSections(options):
+    def wanted(section):
+        if options.section:
+            return section.NAME in options.section
+        return not getattr(section, "ON_REQUEST", False) or (options.peers and section.NAME == "peers")
+    return [section for section in sections.ALL if wanted(section)]
+
+
+def pointsOf(options):
+    """Each once: two sections may ask for the same."""
+    every = [point for section in chosenSections(options) for point in section.points(options.quick)]
+    return [point for point in dict.fromkeys(every) if not options.scene or point.scene in options.scene]
+
+
+def everything():
+    """(results of all points that are measured, how many are missing for the page). What is only made on request may be."""
+    held, found, missing = store.load(), [], 0
+    for section in sections.ALL:
+        for point in dict.fromkeys(section.points(False)):
+            samples = held.get((point.id, store.digest(point)))
+            if samples:
+                found.append(results.merge(point, samples))
+            elif not getattr(section, "ON_REQUEST", False):
+                missing += 1
+    return found, missing
+
+
+def writeFiles(found):
+    machine = results.machine(found)
+    source = files.jsonOf(machine, found)
+    page, figures = document.pageOf(*document.read(source), source)
+    return files.write(machine, found, page, figures)
+
+
+def writeUp(options, measured):
+    """The files of what was asked for, and docs/ when nothing is missing there."""
+    print(f"{writeFiles(measured)}: {len(measured)} points")
+    if options.quick:
+        return
+    found, missing = everything()
+    if missing:
+        print(f"docs/benchmark.md stays as it is: {missing} points are not measured yet (./run bench does)")
+    else:
+        print(f"{document.write(results.machine(found), found)}: {len(found)} points")
+
+
+def run(options):
+    """Exit status."""
+    if options.check:
+        return bounds.check()
+    started, points = time.monotonic(), pointsOf(options)
+    measuring = Measuring(points, options.quick, Progress())
+    try:
+        measuring.run()
+    except KeyboardInterrupt:
+        print(f"\ninterrupted after {clock(time.monotonic() - started)}; what was measured is in {store.path()}, and the "
+              "same command goes on from there", file=sys.stderr)
+        return 130
+    measured = measuring.results()
+    if measured:
+        writeUp(options, measured)
+    for point, problem in measuring.failures.items():
+        print(f"failed: {point.id}: {problem}", file=sys.stderr)
+    print(f"{measuring.made} runs in {clock(time.monotonic() - started)}", file=sys.stderr)
+    return 1 if measuring.failures or not measured else 0
+
+
+def targets(options, chapters):
+    """What has to be built first."""
+    return [*chapters, "make_assets", *(bounds.programs() if options.check else ())]
+
+
+def main(options, chapters):
+    build.build("release", targets(options, chapters))
+    return run(options)

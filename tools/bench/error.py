@@ -1,0 +1,158 @@
+"""Section `error`: run time against error, every technique over its own quality axis, on several scenes."""
+import tables
+from bench import curves, estimates, techniques, work
+from bench.figures import Curve, Figure
+
+NAME = "error"
+LEVELS = (0.1, 0.03, 0.01, 0.003)
+# Plots that the page shows; all lie in out/bench.
+SHOWN = (("hard", "courtyard"), ("disk", "courtyard"), ("area", "heckbert_herf"), ("area", "knot"), ("ambient", "knot"),
+         ("sky", "courtyard"))
+
+
+def points(quick):
+    return techniques.allPoints(quick)
+
+
+def scenesOf(results, quantity):
+    """In the order of the points."""
+    return [scene for scene in dict.fromkeys(result["scene"] for result in results)
+            if estimates.curvesOf(results, scene, quantity)]
+
+
+def figure(every, scene, quantity):
+    """Curves with their slopes; marked: no other point is as quick and as right."""
+    best, drawn = curves.front(every), []
+    for curve in every:
+        kept = [(i, point) for i, point in enumerate(curve.points) if point[1] >= curves.EXACT]
+        steep = curves.slope([point for _, point in kept])
+        if kept:
+            marked = [at for at, (i, _) in enumerate(kept) if (curve.technique, i) in best]
+            label = curve.technique if steep is None else f"{curve.technique} ({steep:+.2f})"
+            drawn.append(Curve(label, [point[:2] for _, point in kept], marked))
+        if exact := curve.exact():
+            drawn.append(Curve(f"{curve.technique}: exact", [(exact[0], None)], dashed=True))
+    quantityTitle = techniques.quantity(quantity).title
+    return Figure(f"error_{quantity}_{scene}", f"{scene}: {quantityTitle}", "ms a frame", "root mean square error", drawn,
+                  (quantity, scene) in SHOWN, scene, quantity)
+
+
+def milliseconds(ms):
+    return f"{ms:.3g}" if ms < 1000 else f"{ms:.0f}"
+
+
+def levelRow(every, scene, quantity, level):
+    """Cells of one scene and error: what is cheapest, by how much, and the alternative a reader would otherwise pick."""
+    reached = estimates.reaching(every, level)
+    if not reached:
+        error, ms, technique = estimates.best(every)
+        return [scene, f"{level:g}", f"none; {technique} comes to {error:.2g}", milliseconds(ms)] + 4 * ["–"]
+    if level < estimates.limitOf(every, quantity):
+        return [scene, f"{level:g}", "cannot be told: the exact answer's own noise is as large"] + 5 * ["–"]
+    first, cells = reached[0], ["–", "–"]
+    if len(reached) > 1:
+        cells = [reached[1][1], f"{reached[1][0] / first[0]:.1f}"]
+    other = next((ms for ms, technique, _ in reached if technique == techniques.quantity(quantity).alternative), None)
+    cells += ["–", "–"] if other is None else [milliseconds(other), f"{other / first[0]:.1f}"]
+    return [scene, f"{level:g}", first[1], milliseconds(first[0]), *cells]
+
+
+def levelTable(results, quantity):
+    alternative = techniques.quantity(quantity).alternative or "rays"
+    rows = []
+    for scene in scenesOf(results, quantity):
+        every = estimates.curvesOf(results, scene, quantity)
+        rows += [levelRow(every, scene, quantity, level) for level in LEVELS]
+    headings = ["scene", "error", "cheapest", "ms", "runner-up", "times the ms", f"{alternative}, ms", "times the ms"]
+    return tables.markdown(headings, rows, ["---", "---:", "---", "---:", "---", "---:", "---:", "---:"])
+
+
+def winners(results, quantity):
+    """{technique: (level, result)} of what is cheapest somewhere, with the hardest case that it wins."""
+    found = {}
+    for scene in scenesOf(results, quantity):
+        every = estimates.curvesOf(results, scene, quantity)
+        for level in LEVELS:
+            reached = estimates.reaching(every, level)
+            if reached and level >= estimates.limitOf(every, quantity):
+                found[reached[0][1]] = (level, reached[0][2])
+    return found
+
+
+def whyLines(results, quantity):
+    """One sentence for each technique, from the table, and of those that win what their counters say."""
+    won, lines = winners(results, quantity), []
+    present = dict.fromkeys(c.technique for scene in scenesOf(results, quantity)
+                            for c in estimates.curvesOf(results, scene, quantity))
+    for technique in present:
+        line = f"- **{technique}**: {techniques.whyOf(technique, quantity)}."
+        if technique in won:
+            level, result = won[technique]
+            said = work.facts(result["work"])
+            where = f"at {result['axis']} {result['value']:g} on {result['scene']}, where it is cheapest for {level:g}"
+            line += f" ({where}: {said}.)" if said else f" (Cheapest for {level:g} on {result['scene']}.)"
+        lines.append(line)
+    return lines
+
+
+def slopeTable(results, quantity):
+    scenes = scenesOf(results, quantity)
+    rows = {}
+    for scene in scenes:
+        for curve in estimates.curvesOf(results, scene, quantity):
+            steep = curves.slope(curve.drawn())
+            rows.setdefault(curve.technique, {})[scene] = "–" if steep is None else f"{steep:+.2f}"
+    cells = [[technique, *(found.get(scene, "–") for scene in scenes)] for technique, found in rows.items()]
+    return tables.markdown(["slope", *scenes], cells, ["---", *("---:" for _ in scenes)])
+
+
+def areaTable(results):
+    """Filtered shadows beside the light they stand for: the least error of each against both."""
+    best = {}
+    for result in results:
+        if result.get("area_light") and result.get("error"):
+            at = (result["scene"], result["technique"])
+            if at not in best or result["error"]["rmse"] < best[at]["error"]["rmse"]:
+                best[at] = result
+    rows = [[scene, technique, f"{r['value']:g}", f"{r['error']['rmse']:.3f}", f"{r['area_light']['rmse']:.3f}",
+             f"{r['area_light']['bias']:+.3f}"] for (scene, technique), r in best.items()]
+    headings = ["scene", "technique", "taps or width", "against its filter", "against the area light", "bias there"]
+    return tables.markdown(headings, rows, ["---", "---", "---:", "---:", "---:", "---:"]) if rows else ""
+
+
+def quantityLines(results, quantity):
+    lines = [f"### {quantity.title[0].upper()}{quantity.title[1:]}", ""]
+    if quantity.without:
+        lines += [f"Without an alternative: {quantity.without}.", ""]
+    lines += [levelTable(results, quantity.name), "", *whyLines(results, quantity.name), "",
+              "How error falls with time (slope of the line fitted to the curve; −0.5 is that of random samples):", "",
+              slopeTable(results, quantity.name), ""]
+    if quantity.name == "area" and (compared := areaTable(results)):
+        lines += ["What chapters 04 to 07 filter is not this light. Each at its best setting, against both:", "", compared, ""]
+    return lines
+
+
+def page(results):
+    good = [result for result in results if result.get("error")]
+    lines, figures = [INTRODUCTION.strip(), ""], []
+    for quantity in techniques.QUANTITIES:
+        scenes = scenesOf(good, quantity.name)
+        if not scenes:
+            continue
+        lines += quantityLines(good, quantity)
+        for scene in scenes:
+            figures.append(figure(estimates.curvesOf(good, scene, quantity.name), scene, quantity.name))
+            if figures[-1].inDocs:
+                lines += [figures[-1].markdown(), ""]
+    return lines, figures
+
+
+INTRODUCTION = """
+## Which technique is cheapest, and why
+
+A technique is a curve: each setting of its quality is a point with a time and an error, and between two settings the curve is
+interpolated on logarithmic axes. Techniques are compared where they estimate the same quantity. *Error* is the root mean
+square over all pixels whose exact answer is defined; where the exact answer is itself many rays, its own noise is taken
+off, and errors that noise would drown are not compared. *ms* is the time of a frame in which the light moves, so that maps
+are rendered again; what is baked once for a scene (chapters 09 and 11 at vertices) is counted in full.
+"""
