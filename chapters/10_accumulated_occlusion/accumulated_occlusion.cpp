@@ -115,7 +115,8 @@ void AccumulatedOcclusion::State::addBatch(const Frame& frame, const OcclusionOp
     // Pass 3: every receiver looks all of them up.
     const PassScope scope(frame.passTimer, "look-ups");
     sums.add(receivers, *maps, frame.scene.bounds,
-             {directions, radiances, frusta, frame.skip, frame.view == "work", options.bias});
+             {directions, radiances, frusta, frame.skip, frame.view == "work", options.bias,
+              options.softEdges() ? cellTangent(options.samples) : 0.0});
 }
 // [end:batches]
 
