@@ -2,7 +2,7 @@
 //
 // Neighbours look at nearly the same surroundings, each with rays of its own, so that together they know more
 // than each alone. But their values differ: along the surface, with the normal, and with how deep a point
-// lies between its own neighbours. So through the values of about thirty neighbours a small function of these
+// lies between its own neighbours. So through the values of about forty neighbours a small function of these
 // is laid (linear, and of second degree along the surface), the one that is most probable a posteriori
 // (C. E. Rasmussen & C. K. I. Williams, "Gaussian Processes for Machine Learning", 2006, ch. 2: regression
 // with a prior on the coefficients). What the function leaves unexplained is compared with the noise of the
@@ -42,12 +42,16 @@ class SharedRays {
     /// Keeps references to all.
     SharedRays(const BakePoints& points, const PointNeighbours& neighbours, std::span<const OwnEstimate> own);
 
+    /// To be called when `own` has changed.
+    void update();
     /// For point `i`. May run on many threads.
     NeighbourEstimate at(std::uint32_t i) const;
 
     std::size_t bytes() const { return 2 * depths_.size() * sizeof(float); }
 
  private:
+    template <class Body>
+    void forEachPoint(const Body& body) const;
     std::span<const std::uint32_t> around(std::uint32_t i) const;
     float depthOf(std::uint32_t i) const;
     float noiseAround(std::uint32_t i) const;

@@ -59,6 +59,10 @@ void Horizon::chooseScouts() {
 
 bool Horizon::anythingAbove(const BakePoints& points, const BakePoint& point, double range) const {
     const glm::dvec3 position(point.position), normal(point.normal);
+    // Its own triangles are near enough for any range, and on a rough surface one of them mostly rises.
+    for (const std::uint32_t t : points.trianglesOf(point))
+        for (const glm::dvec3& corner : cornersOf(scene_, t))
+            if (glm::dot(normal, corner - position) > tolerance_) return true;
     if (std::isinf(range))
         for (const glm::vec3& scout : scouts_)
             if (glm::dot(normal, glm::dvec3(scout) - position) > tolerance_) return true;

@@ -170,8 +170,8 @@ PointFan::PointFan(const Scene& scene, const BakePoints& points, const BakePoint
         sectors_[count_++] = {
             -1.0f, glm::vec3(0.0f),
             glm::vec3(glm::dvec3(point.position) + liftOf(reach) * glm::dvec3(point.normal))};
-    starts_.fill(std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < count_; ++i) starts_[i] = sectors_[i].start;
+    for (std::size_t i = count_; i % together != 0; ++i) starts_[i] = std::numeric_limits<float>::infinity();
 }
 
 /// In the order of their starts; returns how many they are.

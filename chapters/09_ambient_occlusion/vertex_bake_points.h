@@ -80,9 +80,9 @@ class PointFan {
     static constexpr std::size_t together = 8;
     static constexpr std::size_t most = 32;  ///< a fan of more triangles is thinned
     struct Sector {
-        float start = 0.0f;      ///< diamond angle, see .cpp
-        glm::vec3 normal{0.0f};  ///< 0: nothing below
-        glm::vec3 origin{0.0f};
+        float start;       ///< diamond angle, see .cpp
+        glm::vec3 normal;  ///< 0: nothing below
+        glm::vec3 origin;
     };
     struct Wedge;
 
@@ -92,8 +92,9 @@ class PointFan {
     void addSectors(std::span<const Wedge> wedges);
 
     glm::mat3 worldFromLocal_;
+    // Not initialised: a fan is made for each point, and most of them are small.
     std::array<Sector, 3 * most> sectors_;
-    std::array<float, 3 * most> starts_;  ///< of the sectors, and then infinity
+    std::array<float, 3 * most> starts_;  ///< of the sectors, and then infinity to a multiple of `together`
     std::size_t count_ = 0;
 };
 

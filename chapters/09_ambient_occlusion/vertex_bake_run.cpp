@@ -84,9 +84,10 @@ std::vector<AmbientValue> Bake::alone() {
 
 /// The even half of a lattice of twice as many rays.
 void Bake::firstRays() {
-    // A quarter of the rays that a point would need alone is about what pays most: with fewer, the
-    // neighbours' differences cannot be told from noise, and points are refined in vain.
-    firstCount_ = std::max(8, settings_.rays.count / 8 * 2);
+    // Nearly half of the rays that a point would need alone is what pays most. With a quarter, the
+    // neighbours' differences cannot be told from noise, and so many points are refined in vain that it takes
+    // half as long again.
+    firstCount_ = std::max(8, settings_.rays.count * 9 / 40 * 2);
     own_.resize(points_.points.size());
     counts_.assign(points_.points.size(), firstCount_);
     forEachPoint(0.02, 0.4, [&](std::size_t i, std::int64_t& traced) {
@@ -156,13 +157,11 @@ std::vector<AmbientValue> Bake::shared(const PointNeighbours& neighbours) {
     others_.resize(points_.points.size());
     std::vector<float> variances(points_.points.size(), 1.0f);
     double wanted = 0.0;
-    {
-        const SharedRays sharing(points_, neighbours, own_);
-        askNeighbours(sharing, 0.0f, variances);
-        bytes_ = std::int64_t(
-            own_.size() * (sizeof(OwnEstimate) + sizeof(NeighbourEstimate) + sizeof(float) + sizeof(int)) +
-            neighbours.bytes() + sharing.bytes());
-    }
+    SharedRays sharing(points_, neighbours, own_);
+    askNeighbours(sharing, 0.0f, variances);
+    bytes_ = std::int64_t(
+        own_.size() * (sizeof(OwnEstimate) + sizeof(NeighbourEstimate) + sizeof(float) + sizeof(int)) +
+        neighbours.bytes() + sharing.bytes());
     // As good, in the mean of squares, as rays.count rays at every point. It has to aim for better: an edge
     // is narrow, and the neighbours' variance knows only of the mean; and the lattices of several rounds
     // together are not as even as one. With 0.8 a coarse ball on the ground has an RMSE a quarter too large.
@@ -177,7 +176,8 @@ std::vector<AmbientValue> Bake::shared(const PointNeighbours& neighbours) {
     const float threshold = thresholdOfMean(variances, wanted);
     if (std::ranges::any_of(variances, [&](float v) { return v > threshold; })) {
         secondRays(variances, threshold);
-        askNeighbours(SharedRays(points_, neighbours, own_), threshold, variances);
+        sharing.update();
+        askNeighbours(sharing, threshold, variances);
     }
     refine(thresholdOfMean(std::move(variances), wanted));
     std::vector<AmbientValue> values(own_.size());

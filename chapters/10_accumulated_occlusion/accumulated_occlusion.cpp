@@ -114,9 +114,9 @@ void AccumulatedOcclusion::State::addBatch(const Frame& frame, const OcclusionOp
     maps->render(depth, frame, frusta);
     // Pass 3: every receiver looks all of them up.
     const PassScope scope(frame.passTimer, "look-ups");
-    sums.add(
-        receivers, *maps, frame.scene.bounds,
-        {directions, radiances, frusta, frame.skips(lookUpsFacingAway), frame.view == "work", options.bias});
+    sums.add(receivers, *maps, frame.scene.bounds,
+             {directions, radiances, frusta, frame.skips(lookUpsFacingAway), frame.view == "work",
+              options.bias, options.softEdges() ? cellTangent(options.samples) : 0.0});
 }
 // [end:batches]
 

@@ -19,6 +19,9 @@ void OcclusionOptions::declare(Parameters& parameters) {
                    "multiple of the derived bound; 0: acne darkens everything, 8: contacts leak");
     parameters.add("method", method, {"pixels", "vertices"},
                    "where A is added up; vertices: once, whatever the camera does, and blended between them");
+    parameters.add("edges", edges, {"auto", "hard", "soft"},
+                   "hard: a direction is seen or not; soft: the open share of the sky around it, from nine "
+                   "look-ups; auto: soft for vertices, which are few");
     parameters.add("rotate", rotate,
                    "turns the pattern in every frame and goes on adding up while nothing changes");
     declareOcclusionSkips(parameters);

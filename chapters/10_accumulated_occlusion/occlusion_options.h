@@ -16,11 +16,14 @@ struct OcclusionOptions {
     std::string depthFormat = "32f";
     float bias = 1.0f;
     std::string method = "pixels";
+    std::string edges = "auto";
     bool rotate = false;
 
-    /// Declares --samples, --directions, --map-size, --depth-format, --bias, --method and --rotate.
+    /// Declares --samples, --directions, --map-size, --depth-format, --bias, --method, --edges and --rotate.
     void declare(Parameters& parameters);
     bool perVertex() const { return method == "vertices"; }
+    /// Of the shadows of a single direction.
+    bool softEdges() const { return edges == "soft" || (edges == "auto" && perVertex()); }
     bool operator==(const OcclusionOptions&) const = default;
 };
 

@@ -46,6 +46,13 @@ std::vector<glm::dvec3> skyDirections(int count, const std::string& pattern, std
 }
 // [end:directions]
 
+double cellTangent(int count) {
+    // The cap's height is 2 / count: spheres are as wide as their enclosing cylinder (Archimedes).
+    const double cosine = 1.0 - 2.0 / count;
+    constexpr double most = 0.5;
+    return cosine > 1.0 / std::sqrt(1.0 + most * most) ? std::sqrt(1.0 - cosine * cosine) / cosine : most;
+}
+
 glm::dmat3 skyRotation(std::uint32_t index, std::uint32_t seed) {
     if (index == 0) return glm::dmat3(1.0);
     const double u = hashUnit(index, seed, 2);

@@ -1,5 +1,6 @@
 #include "chapters/10_accumulated_occlusion/visibility_sums.h"
 
+#include <numbers>
 #include <utility>
 
 #include "chapters/10_accumulated_occlusion/direction_batches.h"
@@ -66,6 +67,10 @@ void setBias(Program& program, const SkyMaps& maps, const Aabb& bounds, const Sk
     program.set("uDepthPerMetre", float(1.0 / (frustum.far - frustum.near)));
     program.set("uBiasPerSlope", batch.bias * bias.perSlope / float(texelsPerMetre));
     program.set("uBias", batch.bias * bias.constant);
+    if (batch.cellTangent <= 0.0) return;
+    // A circle halves a disk at 1 / sqrt(2) of its radius.
+    program.set("uCell", float(maps.mapSize() * batch.cellTangent * std::numbers::sqrt2 / 2.0));
+    program.set("uTiltPerSlope", float(1.0 / (maps.mapSize() * texelsPerMetre)));
 }
 
 }  // namespace
@@ -84,8 +89,11 @@ void VisibilitySums::clear(const glm::ivec2& size) {
 
 void VisibilitySums::add(const Receivers& receivers, const SkyMaps& maps, const Aabb& bounds,
                          const SkyBatch& added) {
-    std::vector<std::string> defines{"BATCH " + std::to_string(batch)};
+    std::vector<std::string> defines;
+    defines.reserve(3);
+    defines.emplace_back("BATCH " + std::to_string(batch));
     if (added.countWork) defines.emplace_back("COUNT_WORK");
+    if (added.cellTangent > 0.0) defines.emplace_back("SOFT_EDGES");
     Program& program = add_.with(defines);
     setMaps(program, maps, added);
     setBias(program, maps, bounds, added);

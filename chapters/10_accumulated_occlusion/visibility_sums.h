@@ -42,9 +42,10 @@ struct SkyBatch {
     std::span<const glm::dvec3> directions;
     std::span<const glm::dvec3> radiances;
     std::span<const LightFrustum> frusta;
-    bool skip = true;        ///< lookUpsFacingAway
-    bool countWork = false;  ///< count look-ups in place of light
-    float bias = 1.0f;       ///< multiple of the derived bound
+    bool skip = true;          ///< lookUpsFacingAway
+    bool countWork = false;    ///< count look-ups in place of light
+    float bias = 1.0f;         ///< multiple of the derived bound
+    double cellTangent = 0.0;  ///< of what each direction stands for (sky_directions.h); 0: edges are hard
 };
 
 class VisibilitySums {

@@ -21,6 +21,10 @@ layout(location = 1) out vec4 outReceived;
 
 const float horizonCosine = 0.02;  // as in direction_batches.h
 
+#ifdef SOFT_EDGES
+#include "10_accumulated_occlusion/soft_edges.glsl"
+#endif
+
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     vec4 p = texelFetch(uPositions, texel, 0);
@@ -39,9 +43,14 @@ void main() {
         // |dz/ds| + |dz/dt| = slope / facing. Everything is multiplied by `facing`, and there is nothing to divide by.
         float slope = abs(dot(facet, uAcross[k].xyz)) + abs(dot(facet, uUp[k].xyz));
         float z = (uToSky[k].w - dot(l, p.xyz)) * uDepthPerMetre;
+#ifdef SOFT_EDGES
+        vec2 at = vec2(dot(uAcross[k], p), dot(uUp[k], p)), slopes = vec2(dot(facet, uAcross[k].xyz), dot(facet, uUp[k].xyz));
+        weight *= facing > 0.0 ? openShare(k, at, z, facing, slopes, uBiasPerSlope * slope) : 0.0;
+#else
         float zMap = texelFetch(uMaps, ivec3(dot(uAcross[k], p), dot(uUp[k], p), k), 0).r;
         bool lit = facing > 0.0 && (z - zMap - uBias) * facing <= uBiasPerSlope * slope;
         if (!lit) weight = 0.0;
+#endif
         seen += weight * vec4(l, 1.0);
 #ifdef COUNT_WORK
         received.rgb += vec3(1.0);

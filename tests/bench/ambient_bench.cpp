@@ -224,7 +224,7 @@ double compare(const std::string& name, const Scene& scene, int runs) {
         return truth.rmse(truth.ofLoop, [&](std::size_t i) { return values[i]; });
     });
     AmbientBake bake;
-    const Found ours = leastCount(120, [&](int rays) {
+    const Found ours = leastCount(80, [&](int rays) {
         bake = bakeVertices(scene, bundle, settingsFor(rays));
         return truth.rmse(truth.ofBake, [&](std::size_t i) { return bake.values[i].visibility; });
     });

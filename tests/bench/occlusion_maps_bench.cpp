@@ -138,8 +138,17 @@ void vertices(const Scene& scene, int rounds) {
     BakeSettings rays;
     rays.rays.count = 1024;
     const std::vector<AmbientValue> exact = bakeVertices(scene, bundle, rays).values;
-    for (const auto& [samples, mapSize] :
-         {std::pair(128, 256), {128, 512}, {128, 1024}, {192, 256}, {256, 256}, {256, 512}}) {
+    struct Case {
+        int samples, mapSize;
+        const char* edges;
+    };
+    for (const auto& [samples, mapSize, edges] : {Case{128, 512, "hard"},
+                                                  {256, 512, "hard"},
+                                                  {64, 512, "soft"},
+                                                  {128, 256, "soft"},
+                                                  {128, 512, "soft"},
+                                                  {128, 1024, "soft"},
+                                                  {256, 512, "soft"}}) {
         ChapterHarness harness(std::make_unique<NoChapter>(), scene);
         Frame frame = harness.frame("ambient", {64, 64});
         frame.renderMapsAgain = true;
@@ -148,6 +157,7 @@ void vertices(const Scene& scene, int rounds) {
         options.method = "vertices";
         options.samples = samples;
         options.mapSize = mapSize;
+        options.edges = edges;
         const Sky sky = Sky::uniform(glm::dvec3(1.0));
         std::vector<AmbientValue> values;
         std::vector<Way> ways{{"bake", [&] {
@@ -163,9 +173,9 @@ void vertices(const Scene& scene, int rounds) {
         }
         const double count = double(values.size());
         fmt::print(
-            "{} {} vertices, {} directions, maps of {:4}: {:.0f} ms of CPU ({:.0f} ms), RMSE {:.4f}, mean "
-            "error {:+.4f}\n",
-            scene.name, values.size(), samples, mapSize, ways[0].best, ways[0].wall,
+            "{} {} vertices, {} directions, maps of {:4}, {} edges: {:.0f} ms of CPU ({:.0f} ms), "
+            "RMSE {:.4f}, mean error {:+.4f}\n",
+            scene.name, values.size(), samples, mapSize, edges, ways[0].best, ways[0].wall,
             std::sqrt(squares / count), sum / count);
     }
 }
