@@ -47,7 +47,6 @@ int main(int argc, char** argv) {
     }
     try {
         const std::filesystem::path folder = argv[1];
-        std::filesystem::create_directories(folder);
         for (const SceneMaker& maker : makers) maker.make().write(folder / maker.file);
         for (const EnvironmentMaker& maker : environments) writeHdr(folder / maker.file, maker.make());
     } catch (const std::exception& error) {
