@@ -1,11 +1,11 @@
 #include "common/system/memory_limit.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <limits>
-#include <thread>
 
 #include "common/error.h"
 
@@ -63,7 +63,7 @@ std::string megabytes(std::uint64_t bytes) {
 std::optional<MemoryLimit> processMemoryLimit() {
     // What the chapters were seen to take for a small picture with two threads, 1.26 GB and 0.32 GB, and some
     // air. Stacks and heaps of a thread are address space that it hardly uses.
-    const std::uint64_t threads = std::thread::hardware_concurrency();
+    const std::uint64_t threads = std::uint64_t(::sysconf(_SC_NPROCESSORS_ONLN));
     const auto space =
         limitOf(RLIMIT_AS, "the limit of ulimit -v", "VmSize:", (1152 + 128 * threads) * megabyte);
     const auto data =

@@ -2,7 +2,7 @@
 // with the runChapter below in place of the real one: called, it hands over what it would have run.
 #include "tests/endurance/chapter_programs.h"
 
-#include "chapter_mains.h"  // generated: declarations, and MAINS, the functions
+#include <chapter_mains.h>  // generated: declarations, and MAINS, the functions
 
 namespace penumbra {
 namespace {
