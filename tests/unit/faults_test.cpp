@@ -6,13 +6,13 @@
 #include <sched.h>
 #include <sys/mount.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <set>
 
 #include "common/image/file_write.h"
 #include "common/image/image_file.h"
-#include "tests/unit/run_program.h"
+#include "tests/unit/killed_program.h"
 #include "tests/unit/triangle_scene.h"
 
 namespace penumbra {
@@ -62,38 +62,29 @@ TEST_F(FaultsSlow, KilledAtAnyMomentTheOldFileOrTheNewOneIsThere) {
     const Words files{"a.exr", "b.glb"};
     const auto bake = [&](const std::string& samples) {
         return call("09_ambient_occlusion",
-                    {"--scene", "spheres", "--size", "128x128", "--method", "vertices", "--samples", samples,
+                    {"--scene", "spheres", "--size", "16x16", "--method", "vertices", "--samples", samples,
                      "--output", "a.exr", "--save", "b.glb", "--report", "r.json"});
     };
     std::map<std::string, std::set<std::string>> whole;  // what a file may hold
-    const auto start = std::chrono::steady_clock::now();
     for (const char* samples : {"16", "64"}) {
         expectSilence(runProgram(bake(samples)));
         for (const std::string& file : files) whole[file].insert(bytesOf(folder / file));
     }
-    const auto typical = std::chrono::duration<double>(std::chrono::steady_clock::now() - start) / 2.0;
     for (const std::string& file : files)
         ASSERT_EQ(whole[file].size(), 2u) << file << ": both would be the same";
-    std::mt19937 random(5);
-    int killed = 0;
+    const int moments = killAtMoment(bake("64"), std::numeric_limits<int>::max());
+    ASSERT_GT(moments, 20) << "three files are opened, written and renamed";
     const char* wanted = std::getenv("PENUMBRA_KILLS");
-    const int kills = wanted ? std::atoi(wanted) : 16;
+    const int kills = std::min(moments, wanted ? std::atoi(wanted) : 16);
     for (int i = 0; i < kills; ++i) {
-        ProgramCall writing = bake(i % 2 == 0 ? "16" : "64");
-        const auto until = std::chrono::steady_clock::now() +
-                           std::uniform_real_distribution<double>(0.2, 1.1)(random) * typical;
-        // Every other one at the first sign of a temporary file, the rest whenever.
-        writing.signal = SIGKILL;
-        writing.signalWhen = [&, i] {
-            return std::chrono::steady_clock::now() > until ||
-                   (i % 4 == 0 && unfinishedFiles(folder.path()) > 0);
-        };
-        killed += runProgram(writing).status == -SIGKILL;
+        const int moment = (2 * i + 1) * moments / (2 * kills);
+        killAtMoment(bake(i % 2 == 0 ? "16" : "64"), moment);
         for (const std::string& file : files)
-            ASSERT_TRUE(whole[file].contains(bytesOf(folder / file))) << file;
-        ASSERT_TRUE(Json::accept(bytesOf(folder / "r.json"))) << i;
+            ASSERT_TRUE(whole[file].contains(bytesOf(folder / file)))
+                << file << " after moment " << moment << " of " << moments;
+        ASSERT_TRUE(Json::accept(bytesOf(folder / "r.json"))) << moment;
     }
-    EXPECT_GT(killed, kills / 4) << "who was never killed proves nothing";
+    EXPECT_GT(unfinishedFiles(folder.path()), 0u) << "who was never killed while writing proves nothing";
     expectSilence(runProgram(bake("16")));
     EXPECT_EQ(unfinishedFiles(folder.path()), 0u) << "what kills left is cleared away by the next run";
 }
