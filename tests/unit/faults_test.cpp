@@ -94,7 +94,7 @@ TEST_F(FaultsSlow, AfterCtrlCABakeGoesOnWhereItWas) {
         std::to_string(::sched_getcpu());  // with dozens of them it would be over before Ctrl-C
     const auto bake = [&] {
         return callWith({"PENUMBRA_TRUTH_CACHE=cache", "taskset", "-c", core}, "09_ambient_occlusion",
-                        {"--scene", "knot", "--size", "16x16", "--method", "bits", "--samples", "1024",
+                        {"--scene", "knot", "--size", "16x16", "--method", "bits", "--samples", "640",
                          "--report", "r.json", "--output", "a.png"});
     };
     const auto partial = [&] {
