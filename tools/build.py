@@ -14,6 +14,13 @@ class BuildError(Exception):
     """Already explained in its message; the command ends with status 1."""
 
 
+def reason(problem):
+    """One line for a file that cannot be read or written; a BuildError says it itself."""
+    if isinstance(problem, OSError) and problem.filename:
+        return f"{problem.filename}: {problem.strerror}; make it accessible, or free the place"
+    return str(problem)
+
+
 def install(group):
     if subprocess.run([ROOT / "tools" / "install.sh", group]).returncode != 0:
         raise BuildError("nothing was built: packages are missing")

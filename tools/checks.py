@@ -84,9 +84,9 @@ def sanitizers():
         "PENUMBRA_TEST_OUTPUT": str(build.folder("sanitize") / "images"),
     }
     # The assets are those of the release build: instrumented code rounds the last bit of a sine differently. And
-    # unit_chapter_cli starts every chapter many times: once in a hundred times the leak checker itself crashes while a
-    # driver's threads end ("Tracer caught signal 11").
-    flags = ["-L", "unit", "-E", "ByteForByte|chapter_cli"]
+    # unit_chapter_cli and unit_faults start chapters many times: once in a hundred times the leak checker itself crashes
+    # while a driver's threads end ("Tracer caught signal 11"); and a limit of memory is below what instrumented code takes.
+    flags = ["-L", "unit", "-E", "ByteForByte|chapter_cli|unit_faults"]
     return ctest("sanitize", flags, [*unit, "make_assets"], environment)
 
 
@@ -105,6 +105,19 @@ def withoutOsmesa():
         return passed + 1, failed
     print(f"{refused.stderr}FAILED --backend osmesa without OSMesa: status {refused.returncode}, one line and 1 expected")
     return passed, failed + 1
+
+
+def endurance():
+    """What ./test does with some hundred frames and two dozen kills, for as long as it takes to find a slow leak."""
+    names = ["endurance_chapters", "unit_faults"]
+    build.build("release")
+    passed = failed = 0
+    for name, more in zip(names, ({"PENUMBRA_ENDURANCE_FRAMES": "10000"}, {"PENUMBRA_KILLS": "200"})):
+        ran = run([build.folder("release") / "bin" / name], env={**os.environ, **more})
+        print("\n".join(line for line in ran.stdout.splitlines() if " frames: " in line))
+        good, bad = judge(name, ran)
+        passed, failed = passed + good, failed + bad
+    return passed, failed
 
 
 def fuzz(seconds):

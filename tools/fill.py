@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import files
 import house
 import plot as plots
 import png
@@ -179,8 +180,7 @@ def plot(marker, page):
     if page.check and shown != fresh:
         raise PageError(f"{marker.where}: {file} does not show table {name}: run docs/refresh")
     if not page.check and shown != fresh:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(fresh)
+        files.write(target, fresh)
     return f"\n\n![{words}]({page.link('docs/' + file)})\n\n"
 
 

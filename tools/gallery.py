@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import build
+import files
 
 VIEW = re.compile(r"^  ([\w-]+)\s+(\S.*)$")
 TRUTH_VIEWS = ("truth", "error")
@@ -84,18 +85,18 @@ def write(chapters, scene, size, path):
                         ("ROWS", "\n".join(figures(c) for c in chapters)),
                         ("DATA", json.dumps(shown).replace("</", "<\\/"))):
         page = page.replace(f"%{name}%", value)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page)
+    files.write(path, page)
 
 
 def render(names, scene, size):
     started, chapters = time.monotonic(), []
+    path = build.ROOT / "out" / "index.html"
+    files.requireWritable(path)  # before minutes of rendering for a page that cannot be kept
     for name in names:
         print(f"rendering {name}", file=sys.stderr, flush=True)
         chapters.append(renderChapter(name, scene, size))
         for problem in chapters[-1]["problems"]:
             print(f"{name}: {problem}", file=sys.stderr)
-    path = build.ROOT / "out" / "index.html"
     write(chapters, scene, size, path)
     failed = not chapters or any(not chapter["views"] for chapter in chapters)
     print(f"{path}: {len(chapters)} chapters, {sum(len(c['views']) for c in chapters)} pictures "

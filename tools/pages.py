@@ -4,6 +4,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import files
 import fill
 import markers
 import regions
@@ -52,7 +53,7 @@ def refreshPage(page):
     if not page.check:
         new = markers.replaceBodies(text, replacements)
         if new != text:
-            path.write_text(new)
+            files.write(path, new)
             print(f"refreshed {page.path}")
     return problems
 

@@ -3,6 +3,8 @@ import math
 import struct
 import zlib
 
+import files
+
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}
 
@@ -85,10 +87,7 @@ def write(path, width, height, channels, pixels, quick=False):
     for name, content in ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, colour, 0, 0, 0)),
                           (b"IDAT", zlib.compress(bytes(out), 9)), (b"IEND", b"")):
         body += struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_suffix(".tmp")
-    temporary.write_bytes(body)
-    temporary.replace(path)
+    files.write(path, body)
 
 
 def rootMeanSquare(a, b):

@@ -22,7 +22,7 @@ BELOW = {
     "scene": {"scene", "image", "math", "text"},
     "truth": {"truth", "scene", "image", "math", "text"},
     "gl": {"gl", "image", "math", "system", "text"},
-    "app": {"app", "gl", "image", "math", "scene", "text", "truth"},
+    "app": {"app", "gl", "image", "math", "scene", "system", "text", "truth"},
 }
 GPU_SCENE = "common/scene/gpu_*"  # the one place where scene and OpenGL meet
 

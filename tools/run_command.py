@@ -58,10 +58,15 @@ def main(words):
     return 0 if options.build else gallery.render(chapters, options.scene, options.size)
 
 
-if __name__ == "__main__":
+def guarded(words):
     try:
-        sys.exit(main(sys.argv[1:]))
-    except build.BuildError as problem:
-        sys.exit(str(problem))
+        return main(words)
+    except (build.BuildError, OSError) as problem:
+        print(build.reason(problem), file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
-        sys.exit(130)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(guarded(sys.argv[1:]))

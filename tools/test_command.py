@@ -5,6 +5,7 @@
     ./test 03               the tests of one chapter, and its page
     ./test --sanitize       unit tests (hostile files among them) under AddressSanitizer and UBSan
     ./test --fuzz SECONDS   libFuzzer on everything that reads a file
+    ./test --endurance      10 000 frames of all chapters in one process, and 200 kills while files are written
     ./test --help
 
 The first run installs what is missing (as root, or with sudo) and builds. A failing image test leaves the picture, the
@@ -71,6 +72,8 @@ def perform(steps):
 def chosenSteps(options):
     if options.fuzz is not None:
         return [("fuzzing", lambda: checks.fuzz(options.fuzz))]
+    if options.endurance:
+        return [("endurance", checks.endurance)]
     if options.sanitize:
         return [("sanitizers", checks.sanitizers)]
     if options.chapter:
@@ -85,6 +88,7 @@ def parse(words):
     parser.add_argument("chapter", nargs="?", help="number or name of one chapter")
     parser.add_argument("--fast", action="store_true", help="what is quick to run")
     parser.add_argument("--sanitize", action="store_true", help="only the sanitizers")
+    parser.add_argument("--endurance", action="store_true", help="only the long form of the endurance and kill tests")
     parser.add_argument("--fuzz", type=int, metavar="SECONDS", help="only fuzzing, for so long")
     options = parser.parse_args(words)
     if options.chapter and not house.findChapter(build.ROOT, options.chapter):
@@ -102,12 +106,16 @@ def main(words):
     return 1 if failed or not passed else 0
 
 
-if __name__ == "__main__":
+def guarded(words):
     try:
-        sys.exit(main(sys.argv[1:]))
-    except build.BuildError as problem:
-        print(problem, file=sys.stderr)
+        return main(words)
+    except (build.BuildError, OSError) as problem:
+        print(build.reason(problem), file=sys.stderr)
         print("0 passed, 1 failed")
-        sys.exit(1)
+        return 1
     except KeyboardInterrupt:
-        sys.exit(130)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(guarded(sys.argv[1:]))

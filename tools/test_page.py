@@ -4,6 +4,7 @@ import json
 import shutil
 
 import build
+import files
 
 FOLDER = build.ROOT / "out" / "test"
 HEAD = """<!DOCTYPE html>
@@ -68,5 +69,5 @@ def write():
             + "".join(failureOf(record) for record in failed)
             + "<h2>All comparisons</h2><table><tr><th>comparison</th><th>passed</th><th>pixels</th><th>left out</th>"
             f"<th>measured, of what is allowed</th></tr>{rows}</table></html>\n")
-    (FOLDER / "index.html").write_text(page)
+    files.write(FOLDER / "index.html", page)
     print(f"{len(made)} image comparisons: {FOLDER / 'index.html'}")

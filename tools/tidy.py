@@ -5,6 +5,8 @@ import re
 import subprocess
 from functools import lru_cache
 
+import files
+
 PRECOMPILED = re.compile(r" -Winvalid-pch| -fpch-preprocess| -include \S*cmake_pch\.hxx")  # GCC's, which clang cannot read
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
@@ -15,7 +17,7 @@ class Linter:
         self.passed = built.parent / "tidy"
         self.passed.mkdir(parents=True, exist_ok=True)
         commands = json.loads(PRECOMPILED.sub("", (built / "compile_commands.json").read_text()))
-        (self.passed / "compile_commands.json").write_text(json.dumps(commands))
+        files.write(self.passed / "compile_commands.json", json.dumps(commands))
         self.commands = {entry["file"]: entry["command"] for entry in commands}
         version = subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True, check=True).stdout
         self.rules = version + (root / ".clang-tidy").read_text()

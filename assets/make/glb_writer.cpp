@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/image/file_write.h"
 #include "common/scene/glb_container.h"
 
 namespace penumbra::assets {
@@ -258,13 +258,7 @@ void GlbWriter::write(const std::filesystem::path& file) const {
     if (!used.empty()) root["extensionsUsed"] = used;
     root["buffers"] = Json::array({{{"byteLength", state_->bytes.size()}}});
 
-    const std::string glb = glbContainer(root.dump(), {state_->bytes.data(), state_->bytes.size()});
-    std::ofstream out(file, std::ios::binary);
-    out.write(glb.data(), static_cast<std::streamsize>(glb.size()));
-    out.close();
-    if (!out)
-        throw Error("cannot write " + file.string() +
-                    ": is the folder there, writable, and the disk not full?");
+    writeFile(file, glbContainer(root.dump(), {state_->bytes.data(), state_->bytes.size()}));
 }
 
 }  // namespace penumbra::assets

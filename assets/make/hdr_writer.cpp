@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <numbers>
+#include <sstream>
 #include <vector>
 
-#include "common/error.h"
+#include "common/image/file_write.h"
 
 namespace penumbra::assets {
 namespace {
@@ -75,7 +75,7 @@ double smoothStep(double low, double high, double x) {
 }
 
 void writeHdr(const std::filesystem::path& file, const Environment& environment) {
-    std::ofstream out(file, std::ios::binary);
+    std::ostringstream out;
     out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << environment.height << " +X " << environment.width
         << "\n";
     for (int row = 0; row < environment.height; ++row) {
@@ -87,7 +87,7 @@ void writeHdr(const std::filesystem::path& file, const Environment& environment)
         out.put(2).put(2).put(char(environment.width >> 8)).put(char(environment.width & 255));
         for (const Bytes& plane : planes) putRuns(out, plane);
     }
-    if (!out.flush()) throw Error("cannot write " + file.string());
+    writeFile(file, out.str());
 }
 
 }  // namespace penumbra::assets

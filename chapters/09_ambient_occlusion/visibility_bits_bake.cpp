@@ -21,7 +21,9 @@ namespace {
 /// Of this many points the bits are finished together: between two of them there is time to save.
 constexpr std::size_t piece = 4096;
 constexpr int pointsAtOnce = 64;
-constexpr std::chrono::seconds betweenSaves(2);
+// A twentieth of the time goes into saving, at most; and a bake that is over at once needs none.
+constexpr int bakingPerSaving = 20;
+constexpr std::chrono::milliseconds leastBetweenSaves(300);
 
 /// The directions in an order that keeps similar ones together: rays of one point go eight side by side.
 std::vector<std::uint32_t> similarOrder(std::span<const glm::vec3> directions) {
@@ -136,13 +138,21 @@ class Keeper {
     std::optional<PartialBake> load() const {
         return file_.empty() ? std::nullopt : loadPartialBake(file_, key_);
     }
+    /// On a full disk the bake goes on: an interruption then costs what was not kept.
     void save(std::size_t done, std::string_view bytes) {
         if (file_.empty() || done == saved_) return;
-        savePartialBake(file_, key_, done, bytes);
+        const Clock::time_point start = Clock::now();
+        try {
+            savePartialBake(file_, key_, done, bytes);
+        } catch (const Error&) {
+            file_.clear();
+            return;
+        }
         saved_ = done;
         savedAt_ = Clock::now();
+        betweenSaves_ = std::max<Clock::duration>(leastBetweenSaves, bakingPerSaving * (savedAt_ - start));
     }
-    bool isTime() const { return Clock::now() - savedAt_ > betweenSaves; }
+    bool isTime() const { return Clock::now() - savedAt_ > betweenSaves_; }
     void remove() const {
         std::error_code ignored;
         if (!file_.empty()) std::filesystem::remove(file_, ignored);
@@ -154,6 +164,7 @@ class Keeper {
     std::string key_;
     std::size_t saved_ = 0;
     Clock::time_point savedAt_ = Clock::now();
+    Clock::duration betweenSaves_ = leastBetweenSaves;
 };
 
 std::string keyOf(const Scene& scene, int directions, double range) {

@@ -14,6 +14,7 @@
 #include "common/app/progress.h"
 #include "common/app/window_loop.h"
 #include "common/error.h"
+#include "common/system/memory_limit.h"
 
 namespace penumbra {
 namespace {
@@ -39,6 +40,18 @@ std::optional<int> runInWindow(ChapterSession& session) {
     return runWindow({.session = session, .context = context.get()});
 }
 
+/// Refuses a picture that cannot be had. Under a limit of memory, says so should a library crash on it all
+/// the same.
+void requireMemory(const ChapterInfo& info, const Options& options, bool headless) {
+    const glm::ivec2 size = headless ? options.size * options.antialias : options.windowSize;
+    requireMemoryForPicture(std::uint64_t(size.x) * std::uint64_t(size.y));
+    if (const auto limit = processMemoryLimit())
+        sayOnCrash(
+            fmt::format("{}: a library or the driver ended the program: not enough memory below {}, {} MB; "
+                        "raise it, or use a smaller --size or --antialias",
+                        info.name, limit->name, limit->bytes >> 20));
+}
+
 int run(const ChapterInfo& info, const std::function<std::unique_ptr<Chapter>()>& make, int argc,
         char** argv) {
     const Clock::time_point start = Clock::now();
@@ -48,6 +61,7 @@ int run(const ChapterInfo& info, const std::function<std::unique_ptr<Chapter>()>
     std::optional<Options> options = parseCommandLine(info, parameters, argc, argv);
     if (!options) return exitFine;
     const bool headless = options->headless || (options->backend != Backend::window && !displayAnnounced());
+    requireMemory(info, *options, headless);
     if (headless) prepareOutputs(info, *options);
     Progress progress(options->quiet);
     ChapterSession session(info, std::move(chapter), parameters, *options, headless, progress.callback());

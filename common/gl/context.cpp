@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <set>
 #include <vector>
 
@@ -114,6 +115,20 @@ std::vector<BackendEntry> backendsToTry(const ContextRequest& request) {
     return entries;
 }
 
+/// Mesa's software rasterisers end with a segmentation fault on values of these that they do not know.
+void requireKnownDrivers(Backend backend) {
+    const auto require = [](const char* variable, const std::set<std::string>& known) {
+        const char* value = std::getenv(variable);
+        if (!value || !*value || known.contains(value)) return;
+        std::string names;
+        for (const std::string& name : known) names += (names.empty() ? "" : " or ") + name;
+        throw Error(fmt::format("the environment variable {} is \"{}\": unset it, or set it to {}", variable,
+                                value, names));
+    };
+    require("LP_NATIVE_VECTOR_WIDTH", {"128", "256", "512"});
+    if (backend == Backend::osmesa) require("GALLIUM_DRIVER", {"llvmpipe", "softpipe"});
+}
+
 [[noreturn]] void refuse(const ContextRequest& request, const std::vector<BackendEntry>& tried,
                          const std::vector<std::string>& reasons) {
     std::string what;
@@ -133,6 +148,7 @@ std::unique_ptr<Context> createContext(const ContextRequest& request) {
     std::vector<std::string> reasons;
     for (const BackendEntry& entry : entries) {
         try {
+            requireKnownDrivers(entry.backend);
             BackendContext made = entry.create(request);
             loadGlFunctions(made.getProcAddress);
             const Features features(request.api);

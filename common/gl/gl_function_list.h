@@ -63,7 +63,15 @@
     X(PFNGLGETSTRINGPROC, glGetString)                                           \
     X(PFNGLGETSTRINGIPROC, glGetStringi)                                         \
     X(PFNGLGETUNIFORMLOCATIONPROC, glGetUniformLocation)                         \
+    X(PFNGLISBUFFERPROC, glIsBuffer)                                             \
     X(PFNGLISENABLEDPROC, glIsEnabled)                                           \
+    X(PFNGLISFRAMEBUFFERPROC, glIsFramebuffer)                                   \
+    X(PFNGLISPROGRAMPROC, glIsProgram)                                           \
+    X(PFNGLISRENDERBUFFERPROC, glIsRenderbuffer)                                 \
+    X(PFNGLISSAMPLERPROC, glIsSampler)                                           \
+    X(PFNGLISSHADERPROC, glIsShader)                                             \
+    X(PFNGLISTEXTUREPROC, glIsTexture)                                           \
+    X(PFNGLISVERTEXARRAYPROC, glIsVertexArray)                                   \
     X(PFNGLLINKPROGRAMPROC, glLinkProgram)                                       \
     X(PFNGLPIXELSTOREIPROC, glPixelStorei)                                       \
     X(PFNGLPOLYGONOFFSETPROC, glPolygonOffset)                                   \

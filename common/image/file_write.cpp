@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -77,16 +78,30 @@ fs::path resolved(const fs::path& file) {
     return error ? file : target;
 }
 
+constexpr std::string_view unfinishedMark = ".part-";
+constexpr std::size_t markDigits = 6;  // mkstemp's
+
+/// Removes what earlier writes of `file` left when they were killed. A write that is still going on holds a
+/// lock on its temporary file.
+void removeAbandoned(const fs::path& file) {
+    const std::string prefix = file.filename().string() + std::string(unfinishedMark);
+    std::error_code ignored;
+    for (const auto& entry :
+         fs::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() != prefix.size() + markDigits || !name.starts_with(prefix)) continue;
+        const Descriptor fd{::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
+        if (fd.fd >= 0 && ::flock(fd.fd, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());
+    }
+}
+
 /// A new, empty file beside `file`, registered for removal until `release`d or destroyed.
 class TemporaryFile {
  public:
     explicit TemporaryFile(const fs::path& file) : lock_(writeMutex) {
         if (fs::is_directory(file)) failWrite(file, "it is a folder");
-        std::string name = file.string() + ".part-XXXXXX";
-        if (name.size() >= sizeof unfinishedPath) failWrite(file, "its name is too long");
-        std::memcpy(unfinishedPath, name.c_str(), name.size() + 1);
-        fd_.fd = ::mkstemp(unfinishedPath);
-        if (fd_.fd < 0) failWrite(file, std::strerror(errno));
+        removeAbandoned(file);
+        while (!create(file)) continue;
         unfinished = true;
         ::fchmod(fd_.fd, permissionsOf(file));
     }
@@ -101,6 +116,18 @@ class TemporaryFile {
     }
 
  private:
+    /// False if another process took the new file for an abandoned one, before it was locked, and removed it.
+    bool create(const fs::path& file) {
+        const std::string name = file.string() + std::string(unfinishedMark) + std::string(markDigits, 'X');
+        if (name.size() >= sizeof unfinishedPath) failWrite(file, "its name is too long");
+        std::memcpy(unfinishedPath, name.c_str(), name.size() + 1);
+        if (fd_.fd >= 0) ::close(fd_.fd);
+        fd_.fd = ::mkostemp(unfinishedPath, O_CLOEXEC);
+        if (fd_.fd < 0) failWrite(file, std::strerror(errno));
+        ::flock(fd_.fd, LOCK_EX);
+        struct stat made {};
+        return ::fstat(fd_.fd, &made) != 0 || made.st_nlink > 0;
+    }
     /// mkstemp makes private files; a picture should have the permissions that any new file gets.
     static mode_t permissionsOf(const fs::path& file) {
         struct stat existing {};

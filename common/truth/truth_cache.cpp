@@ -116,12 +116,19 @@ std::optional<TruthImage> load(const std::filesystem::path& file) {
     return decode(std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
+/// Of ours: exact answers, bakes that wait to be taken up again, and what a kill left of either.
+bool isCached(const std::filesystem::path& file) {
+    const std::string name = file.filename().string();
+    const std::string whole = name.substr(0, name.find(".part-"));
+    return whole.ends_with(".truth") || whole.ends_with(".bits");
+}
+
 void removeOldest(const std::filesystem::path& folder) {
     constexpr std::uintmax_t most = std::uintmax_t(1) << 30;
     std::vector<std::filesystem::directory_entry> files;
     std::uintmax_t total = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        if (entry.path().extension() != ".truth") continue;
+        if (!isCached(entry.path())) continue;
         files.push_back(entry);
         total += entry.file_size();
     }

@@ -29,7 +29,7 @@ class TinyChapter : public Chapter {
     void declare(Parameters& parameters) override {
         parameters.add("offset", offset_, -4.0f, 4.0f, "", "added to the visibility");
         parameters.add("seconds", seconds_, 0, 60, "s", "how long a frame takes");
-        parameters.add("fault", fault_, {"none", "error", "memory", "unknown"}, "what goes wrong");
+        parameters.add("fault", fault_, {"none", "error", "memory", "unknown", "crash"}, "what goes wrong");
         for (const Skip* skip : {&half, &rest}) parameters.skips().declare(*skip);
     }
     void load(const Scene&, const Context*) override {}
@@ -42,6 +42,7 @@ class TinyChapter : public Chapter {
         }
         if (fault_ == "error") throw Error("the chapter failed; do otherwise");
         if (fault_ == "memory") throw std::bad_alloc();
+        if (fault_ == "crash") std::raise(SIGSEGV);
         if (fault_ == "unknown") throw std::out_of_range("something else");
         frame.work["frames"] += 1;
         frame.work["maps"] += frame.renderMapsAgain ? 1 : 0;
@@ -280,15 +281,44 @@ TEST_F(Cli, CtrlCEndsWithOneLineAndNoFiles) {
     }
 }
 
-TEST_F(Cli, KilledInTheMiddleOfWritingItLeavesTheOldPicture) {
+TEST_F(Cli, AFileLargerThanAllowedIsAFailureThatLeavesTheOldPicture) {
     for (const char* name : {"a.png", "a.exr"}) {
         writeTextFile(folder / name, "the old picture");
         ProgramCall limited = call({"--size", "700x700", "--quiet", "--output", name});
         limited.largestFile = 100;
-        EXPECT_LT(runProgram(limited).status, 0) << "the picture should be larger than that";
+        const ProgramResult result = runProgram(limited);
+        EXPECT_EQ(result.status, 1);
+        EXPECT_EQ(result.errorLines(), 1) << result.err;
+        EXPECT_NE(result.err.find("File too large"), std::string::npos) << result.err;
         EXPECT_EQ(bytesOf(folder / name), "the old picture");
+        std::filesystem::remove(folder / name);
+        EXPECT_EQ(filesLeft(), 0u);
     }
 }
+
+#ifndef __SANITIZE_ADDRESS__  // which takes 20 TB of address space, and handles crashes itself
+TEST_F(Cli, UnderALimitOfMemoryACrashIsOneLineAndWithoutOneACrash) {
+    ProgramCall crash = call({"--fault", "crash", "--size", "4x4", "--quiet"});
+    EXPECT_EQ(runProgram(crash).status, -SIGSEGV) << "a debugger wants to see it";
+    crash.addressSpace = rlim_t(64) << 30;
+    const ProgramResult result = runProgram(crash);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.errorLines(), 1) << result.err;
+    EXPECT_NE(result.err.find("not enough memory below the limit of ulimit -v, 65536 MB"), std::string::npos)
+        << result.err;
+    EXPECT_EQ(filesLeft(), 0u);
+}
+
+TEST_F(Cli, APictureThatDoesNotFitIntoMemoryIsRefusedBeforeTheWorkBegins) {
+    ProgramCall large = call({"--seconds", "1", "--size", "16384x16384", "--quiet"});
+    large.addressSpace = rlim_t(16) << 30;
+    const ProgramResult result = runProgram(large);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.errorLines(), 1) << result.err;
+    EXPECT_NE(result.err.find("use a smaller --size"), std::string::npos) << result.err;
+    EXPECT_EQ(filesLeft(), 0u) << "the chapter began";
+}
+#endif
 
 TEST_F(Cli, KilledAtAnyMomentThePictureIsWholeOrAbsent) {
     for (int run = 0; run < 12; ++run) {

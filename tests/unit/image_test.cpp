@@ -1,8 +1,11 @@
 // Files, tone mapping, false colour, making smaller.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
@@ -249,6 +252,19 @@ TEST(WriteFile, SaysWhyItCannot) {
     requireWritable(folder / "later.png");
     EXPECT_EQ(folder.entries(), 1u);
     EXPECT_EQ(bytesOf(folder / "file"), "x");
+}
+
+TEST(WriteFile, RemovesWhatAKilledWriteLeftAndNothingElse) {
+    const TemporaryFolder folder;
+    const int held = ::open((folder / "a.png.part-writes").c_str(), O_CREAT | O_RDWR, 0600);
+    ASSERT_EQ(::flock(held, LOCK_EX), 0);
+    for (const char* name : {"a.png.part-killed", "b.png.part-killed", "a.png.part-longer.png", "a.png.old"})
+        writeTextFile(folder / name, "half");
+    writeFile(folder / "a.png", "new");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.png.part-killed"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.png.part-writes")) << "another program is writing it";
+    EXPECT_EQ(folder.entries(), 5u);
+    ::close(held);
 }
 
 TEST(ToneMap, IsTheIdentityBelowTheKneeAndStaysInRangeAbove) {

@@ -33,7 +33,8 @@ struct ProgramCall {
     std::filesystem::path standardOutput = {};  ///< empty: caught
     int signal = 0;                             ///< sent once `signalWhen` holds
     std::function<bool()> signalWhen = {};
-    rlim_t largestFile = RLIM_INFINITY;  ///< bytes; at the first beyond, it is killed
+    rlim_t largestFile = RLIM_INFINITY;   ///< bytes, as ulimit -f
+    rlim_t addressSpace = RLIM_INFINITY;  ///< bytes, as ulimit -v
 };
 
 /// Replaces this (forked) process by the program, without a display.
@@ -49,6 +50,10 @@ struct ProgramCall {
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
     const rlimit fileSize{call.largestFile, call.largestFile};
     ::setrlimit(RLIMIT_FSIZE, &fileSize);
+    const rlimit noCore{0, 0};
+    ::setrlimit(RLIMIT_CORE, &noCore);
+    const rlimit addressSpace{call.addressSpace, call.addressSpace};
+    ::setrlimit(RLIMIT_AS, &addressSpace);
     if (::chdir(call.folder.c_str()) == 0) ::execv(call.program.c_str(), arguments.data());
     ::_exit(127);
 }

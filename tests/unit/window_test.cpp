@@ -180,6 +180,25 @@ TEST_F(WindowTest, SizeIsTheSizeOfTheWindow) {
     expectQuit(*window);
 }
 
+class WindowSlow : public WindowTest {};
+
+TEST_F(WindowSlow, ManySizesKeysAndShadersLaterItStillDrawsTheSame) {
+    const auto window = open();
+    for (int i = 0; i < 15; ++i) {
+        window->xdotool(fmt::format("search --onlyvisible --name 'Penumbra 98_pattern' windowsize {} {}",
+                                    1 + 53 * i % 1200, 1 + 37 * i % 700));
+        window->press("Tab period v Right F1 h F1 h Home shift+Tab");
+        if (i % 5 == 0) writeShader(patternShader);
+    }
+    window->xdotool("search --onlyvisible --name 'Penumbra 98_pattern' windowsize --sync 320 200");
+    EXPECT_EQ(window->errors().find("error"), std::string::npos) << window->errors();
+    const FloatImage picture = screenshot(*window, 1);
+    EXPECT_EQ(picture.width, 320);
+    EXPECT_EQ(picture.height, 200);
+    for (const float value : picture.values) ASSERT_TRUE(std::isfinite(value));
+    expectQuit(*window);
+}
+
 TEST_F(WindowTest, OnADenseScreenThePanelGrowsAndThePictureFillsTheWindow) {
     ASSERT_TRUE(screen_.setDotsPerInch(192));
     WindowSession scaled(screen_.display(), folder_.path(), [] {

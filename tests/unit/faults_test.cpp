@@ -1,0 +1,218 @@
+// What goes wrong around a program: killed at any moment, a disk that is full or read-only, memory that is
+// short, an environment full of nonsense, the largest pictures. Each time: the old file or the new one, one
+// line, and the promised exit status. Drawn with real chapters; tests/unit/cli_test.cpp has the same for what
+// all chapters share.
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/image/file_write.h"
+#include "common/image/image_file.h"
+#include "tests/unit/killed_program.h"
+#include "tests/unit/triangle_scene.h"
+
+namespace penumbra {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+constexpr rlim_t megabyte = 1 << 20;
+
+class FaultsSlow : public testing::Test {
+ protected:
+    FaultsSlow() { writeFile(folder / "triangle.gltf", triangleFile); }
+    ProgramCall call(const std::string& chapter, Words arguments) const {
+        arguments.insert(arguments.begin(), {"--headless", "--quiet", "--scene", "triangle.gltf"});
+        return {
+            .program = programFolder() / chapter, .arguments = std::move(arguments), .folder = folder.path()};
+    }
+    /// The same with these settings of the environment: "NAME=value", or "-u" and "NAME".
+    ProgramCall callWith(Words environment, const std::string& chapter, Words arguments) const {
+        ProgramCall plain = call(chapter, std::move(arguments));
+        environment.push_back(plain.program);
+        environment.insert(environment.end(), plain.arguments.begin(), plain.arguments.end());
+        return {.program = "/usr/bin/env", .arguments = std::move(environment), .folder = folder.path()};
+    }
+    static void expectOneLine(const ProgramResult& result, int status, const std::string& part) {
+        EXPECT_EQ(result.status, status) << result.err;
+        EXPECT_EQ(result.errorLines(), 1) << result.err;
+        EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+        EXPECT_EQ(result.out, "");
+    }
+    static void expectSilence(const ProgramResult& result) {
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(result.out + result.err, "");
+    }
+    static std::size_t unfinishedFiles(const fs::path& path) {
+        std::size_t count = 0;
+        for (const auto& entry : fs::directory_iterator(path))
+            count += entry.path().string().find(".part-") != std::string::npos;
+        return count;
+    }
+    TemporaryFolder folder;
+};
+
+TEST_F(FaultsSlow, KilledAtAnyMomentTheOldFileOrTheNewOneIsThere) {
+    const Words files{"a.exr", "b.glb"};
+    const auto bake = [&](const std::string& samples) {
+        return call("09_ambient_occlusion",
+                    {"--scene", "spheres", "--size", "16x16", "--method", "vertices", "--samples", samples,
+                     "--output", "a.exr", "--save", "b.glb", "--report", "r.json"});
+    };
+    std::map<std::string, std::set<std::string>> whole;  // what a file may hold
+    for (const char* samples : {"16", "64"}) {
+        expectSilence(runProgram(bake(samples)));
+        for (const std::string& file : files) whole[file].insert(bytesOf(folder / file));
+    }
+    for (const std::string& file : files)
+        ASSERT_EQ(whole[file].size(), 2u) << file << ": both would be the same";
+    const int moments = killAtMoment(bake("64"), std::numeric_limits<int>::max());
+    ASSERT_GT(moments, 20) << "three files are opened, written and renamed";
+    const char* wanted = std::getenv("PENUMBRA_KILLS");
+    const int kills = std::min(moments, wanted ? std::atoi(wanted) : 10);
+    for (int i = 0; i < kills; ++i) {
+        const int moment = (2 * i + 1) * moments / (2 * kills);
+        killAtMoment(bake(i % 2 == 0 ? "16" : "64"), moment);
+        for (const std::string& file : files)
+            ASSERT_TRUE(whole[file].contains(bytesOf(folder / file)))
+                << file << " after moment " << moment << " of " << moments;
+        ASSERT_TRUE(Json::accept(bytesOf(folder / "r.json"))) << moment;
+    }
+    EXPECT_GT(unfinishedFiles(folder.path()), 0u) << "who was never killed while writing proves nothing";
+    expectSilence(runProgram(bake("16")));
+    EXPECT_EQ(unfinishedFiles(folder.path()), 0u) << "what kills left is cleared away by the next run";
+}
+
+TEST_F(FaultsSlow, AfterCtrlCABakeGoesOnWhereItWas) {
+    const std::string core =
+        std::to_string(::sched_getcpu());  // with dozens of them it would be over before Ctrl-C
+    const auto bake = [&] {
+        return callWith({"PENUMBRA_TRUTH_CACHE=cache", "taskset", "-c", core}, "09_ambient_occlusion",
+                        {"--scene", "knot", "--size", "16x16", "--method", "bits", "--samples", "640",
+                         "--report", "r.json", "--output", "a.png"});
+    };
+    const auto partial = [&] {
+        if (!fs::exists(folder / "cache")) return false;
+        const auto entries = fs::directory_iterator(folder / "cache");
+        return std::any_of(begin(entries), end(entries),
+                           [](const auto& e) { return e.path().extension() == ".bits"; });
+    };
+    ProgramCall interrupted = bake();
+    interrupted.signal = SIGINT;
+    const auto tooLate = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    interrupted.signalWhen = [&] { return partial() || std::chrono::steady_clock::now() > tooLate; };
+    expectOneLine(runProgram(interrupted), 130, "interrupted");
+    EXPECT_FALSE(fs::exists(folder / "a.png"));
+    ASSERT_TRUE(partial());
+    const auto rays = [&] {
+        expectSilence(runProgram(bake()));
+        EXPECT_FALSE(partial()) << "what is finished need not wait";
+        return Json::parse(bytesOf(folder / "r.json"))["work"]["rays_baked"].get<std::int64_t>();
+    };
+    const std::int64_t rest = rays();
+    const std::string resumed = bytesOf(folder / "a.png");
+    EXPECT_LT(rest, rays()) << "it began anew";
+    EXPECT_EQ(resumed, bytesOf(folder / "a.png"));
+}
+
+TEST_F(FaultsSlow, AFullOrReadOnlyDiskIsOneLineAndTheOldFilesStay) {
+    // Mounted for this process alone, and gone with it. Who is not root tests with /dev/full and ulimit -f
+    // only (cli_test).
+    const std::string disk = (folder / "disk").string();
+    fs::create_directory(disk);
+    if (::unshare(CLONE_NEWNS) != 0 || ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        ::mount("penumbra", disk.c_str(), "tmpfs", 0, "size=16k") != 0)
+        return;
+    writeFile(disk + "/a.png", "the old picture");
+    writeFile(disk + "/fill", std::string(12 << 10, 'x'));
+    const auto expectFailures = [&](const std::string& why) {
+        expectOneLine(runProgram(call("02_shadow_test", {"--output", "disk/a.png"})), 1, why);
+        expectOneLine(runProgram(call("02_shadow_test", {"--output", "disk/new/a.exr"})), 1, why);
+        expectOneLine(runProgram(call("09_ambient_occlusion",
+                                      {"--scene", "spheres", "--size", "16x16", "--samples", "16", "--method",
+                                       "vertices", "--save", "disk/a.glb", "--output", "b.png"})),
+                      1, why);
+        EXPECT_EQ(bytesOf(disk + "/a.png"), "the old picture");
+        EXPECT_EQ(unfinishedFiles(disk), 0u);
+        EXPECT_FALSE(fs::exists(disk + "/a.glb"));
+        expectSilence(runProgram(callWith({"PENUMBRA_TRUTH_CACHE=disk"}, "02_shadow_test",
+                                          {"--size", "64x64", "--compare-truth", "--output", "b.png"})));
+        EXPECT_EQ(unfinishedFiles(disk), 0u);
+    };
+    expectFailures("No space left on device");
+    ASSERT_EQ(::mount("none", disk.c_str(), nullptr, MS_REMOUNT | MS_RDONLY, nullptr), 0);
+    expectFailures("Read-only file system");
+    expectOneLine(
+        runProgram(
+            {.program = programFolder() / "make_assets", .arguments = {"disk"}, .folder = folder.path()}),
+        1, "disk/heckbert_herf.glb: cannot be written: Read-only file system");
+    ::umount(disk.c_str());
+}
+
+TEST_F(FaultsSlow, NonsenseInTheEnvironmentIsIgnoredOrNamed) {
+    const Words picture{"--size", "16x16", "--output", "a.png"};
+    const std::vector<Words> ignored{
+        {"DISPLAY=:77"},  // nobody there: without a window then
+        {"WAYLAND_DISPLAY=nowhere", "XDG_RUNTIME_DIR=/nowhere", "XDG_CONFIG_HOME=/nowhere/x"},
+        {"-i"},
+        {"LC_ALL=nonsense", "LANG=xx_YY.UTF-9", "TZ=:nonsense", "TERM=nonsense", "TMPDIR=/nowhere",
+         "COLUMNS=-1"},
+        {"LIBGL_ALWAYS_SOFTWARE=nonsense", "MESA_DEBUG=nonsense", "LP_NUM_THREADS=-5",
+         "EGL_PLATFORM=nonsense"},
+        {"PENUMBRA_TRUTH_CACHE=/dev/null/x"},
+    };
+    for (const Words& environment : ignored) {
+        SCOPED_TRACE(environment.front());
+        expectSilence(runProgram(callWith(environment, "02_shadow_test", picture)));
+    }
+    // Mesa itself warns that it cannot keep its shaders, and goes on.
+    const ProgramResult homeless =
+        runProgram(callWith({"HOME=/nowhere", "XDG_CACHE_HOME=/nowhere/x"}, "02_shadow_test", picture));
+    EXPECT_EQ(homeless.status, 0);
+    EXPECT_LE(homeless.errorLines(), 1) << homeless.err;
+    const std::vector<std::pair<Words, std::string>> named{
+        {{"GALLIUM_DRIVER=nonsense"}, "GALLIUM_DRIVER is \"nonsense\""},
+        {{"LP_NATIVE_VECTOR_WIDTH=7"}, "LP_NATIVE_VECTOR_WIDTH is \"7\""},
+        {{"PENUMBRA_SHADERS=/nowhere"}, "PENUMBRA_SHADERS"},
+        {{"PENUMBRA_IMAGE_CODEC=/nowhere.so"}, "/nowhere.so"},
+        {{"PENUMBRA_OSMESA_LIBRARY=/nowhere.so", "PENUMBRA_EGL_LIBRARY=/nowhere.so"}, "/nowhere.so"},
+        {{"LIBGL_DRIVERS_PATH=/nowhere", "PENUMBRA_OSMESA_LIBRARY=/nowhere.so"},
+         "EGL could not be initialised"},
+    };
+    for (const auto& [environment, part] : named) {
+        SCOPED_TRACE(environment.front());
+        expectOneLine(runProgram(callWith(environment, "02_shadow_test", picture)), 1, part);
+    }
+    expectOneLine(
+        runProgram(callWith({"PENUMBRA_ASSETS=/nowhere"}, "02_shadow_test", {"--scene", "contact"})), 2,
+        "PENUMBRA_ASSETS");
+}
+
+TEST_F(FaultsSlow, WithLittleMemoryItIsOneLineAndNeverACrash) {
+    for (const std::string chapter : {"00_ray_traced_truth", "02_shadow_test", "09_ambient_occlusion"})
+        for (const rlim_t megabytes : {64, 200, 400, 1000}) {
+            SCOPED_TRACE(chapter + " with " + std::to_string(megabytes) + " MB");
+            ProgramCall poor = call(chapter, {"--size", "64x64", "--output", "a.png"});
+            poor.addressSpace = megabytes * megabyte;
+            expectOneLine(runProgram(poor), 1, "not enough memory for this picture");
+            EXPECT_FALSE(fs::exists(folder / "a.png"));
+        }
+    ProgramCall enough = call("02_shadow_test", {"--size", "64x64", "--output", "a.png"});
+    enough.addressSpace = 1600 * megabyte + 128 * megabyte * std::thread::hardware_concurrency();
+    expectSilence(runProgram(enough));
+}
+
+TEST_F(FaultsSlow, ThePictureOfEightThousandPixelsASideIsRendered) {
+    expectSilence(runProgram(
+        call("02_shadow_test", {"--size", "8192x8192", "--view", "visibility", "--report", "r.json"})));
+    EXPECT_EQ(Json::parse(bytesOf(folder / "r.json"))["size"], Json::parse("[8192, 8192]"));
+}
+
+}  // namespace
+}  // namespace penumbra
