@@ -48,7 +48,6 @@ constexpr const char* help =
     "                                    see how time and memory grow with them; that of assets/ has 70000\n";
 
 void makeAll(const std::filesystem::path& folder) {
-    std::filesystem::create_directories(folder);
     for (const SceneMaker& maker : makers) maker.make().write(folder / maker.file);
     for (const EnvironmentMaker& maker : environments) writeHdr(folder / maker.file, maker.make());
 }
@@ -64,9 +63,7 @@ int trianglesFrom(const std::string& text) {
 
 void makeOneKnot(const std::string& triangles, const std::filesystem::path& file) {
     if (file.extension() != ".glb") throw penumbra::UsageError(file.string() + ": must end in .glb");
-    const GlbWriter scene = makeKnot(trianglesFrom(triangles));
-    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-    scene.write(file);
+    makeKnot(trianglesFrom(triangles)).write(file);
 }
 
 int run(const std::vector<std::string>& arguments) {
