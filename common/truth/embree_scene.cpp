@@ -190,7 +190,7 @@ EmbreeScene::EmbreeScene(const Scene& scene) : scene_(scene) {
         heights_.push_back(decisiveHeight(cornersOf(scene, std::uint32_t(t)), reach));
 }
 
-std::optional<FloatHit> EmbreeScene::nearest(const Ray& ray, const IgnoredTriangles& ignored) const {
+std::optional<std::uint32_t> EmbreeScene::nearest(const Ray& ray, const IgnoredTriangles& ignored) const {
     Query query(scene_, ignored);
     RTCRayHit found{};
     const glm::vec3 origin(ray.origin), direction(ray.direction);
@@ -208,7 +208,7 @@ std::optional<FloatHit> EmbreeScene::nearest(const Ray& ray, const IgnoredTriang
     rtcIntersect1(embree_.scene(), &query.embree, &found);
 #endif
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return FloatHit{found.hit.primID, {found.hit.u, found.hit.v}};
+    return found.hit.primID;
 }
 
 PacketAnswer EmbreeScene::occluded(std::span<const ShadowRay> rays, const ShadowPacket& packet,
