@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "common/truth/embree_hierarchy.h"
 
@@ -66,26 +67,44 @@ void RayBundle::blocked(std::span<const BundleRay> rays, float range, std::span<
         const std::size_t count = std::min(together, rays.size() - first);
         pack(rays.data() + first, count, range, packet, valid);
         trace(valid, state_->hierarchy.scene(), packet);
-        for (std::size_t i = 0; i < count; ++i) blocked[first + i] = packet.tfar[i] < 0.0f ? 1 : 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const BundleRay& ray = rays[first + i];
+            blocked[first + i] = packet.tfar[i] < 0.0f ? 1 : 0;
+            if (blocked[first + i] && ray.besides != BundleRay::noTriangle)
+                blocked[first + i] = std::isfinite(distance(ray, range)) ? 1 : 0;
+        }
     }
 }
 
-float RayBundle::distance(const BundleRay& ray, float range) const {
-    RTCRayHit found{};
-    found.ray.org_x = ray.origin.x, found.ray.org_y = ray.origin.y, found.ray.org_z = ray.origin.z;
-    found.ray.dir_x = ray.direction.x, found.ray.dir_y = ray.direction.y, found.ray.dir_z = ray.direction.z;
-    found.ray.tfar = range;
-    found.ray.mask = 0xffffffffu;
-    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+namespace {
+
+void intersect(RTCScene scene, RTCRayHit& found) {
 #if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(state_->hierarchy.scene(), &found);
+    rtcIntersect1(scene, &found);
 #else
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1(state_->hierarchy.scene(), &context, &found);
+    rtcIntersect1(scene, &context, &found);
 #endif
-    return found.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
-                                                       : found.ray.tfar;
+}
+
+}  // namespace
+
+float RayBundle::distance(const BundleRay& ray, float range) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    RTCRayHit found{};
+    found.ray.org_x = ray.origin.x, found.ray.org_y = ray.origin.y, found.ray.org_z = ray.origin.z;
+    found.ray.dir_x = ray.direction.x, found.ray.dir_y = ray.direction.y, found.ray.dir_z = ray.direction.z;
+    found.ray.mask = 0xffffffffu;
+    do {
+        found.ray.tfar = range;
+        found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        intersect(state_->hierarchy.scene(), found);
+        if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return infinity;
+        // Met where it is not: on with what is behind.
+        found.ray.tnear = std::nextafter(found.ray.tfar, infinity);
+    } while (found.hit.primID == ray.besides && found.ray.tnear < range);
+    return found.hit.primID == ray.besides ? infinity : found.ray.tfar;
 }
 
 std::size_t RayBundle::bytes() const {

@@ -15,8 +15,13 @@
 namespace penumbra {
 
 struct BundleRay {
+    static constexpr std::uint32_t noTriangle = 0xffffffffu;
+
     glm::vec3 origin{0.0f};
     glm::vec3 direction{0.0f};  ///< unit
+    /// A triangle that is not met: the one that the ray begins on, if it is so slender that floats do not
+    /// know its plane (decisiveHeight). Costs nothing but where a ray is blocked.
+    std::uint32_t besides = noTriangle;
 };
 
 /// Embree's float copy of a scene's triangles. All queries may run on many threads.
