@@ -140,7 +140,7 @@ void asAccurateAsPromised(Verdict& verdict, const Case& given, const AreaLightSc
         size < 0.01 ? gaussFormFactor(scene.normal, light) : longDoubleFormFactor(scene.normal, light);
     verdict.expectAtMost("relative error of Lambert's formula",
                          std::abs(formFactor(glm::dvec3(0.0), scene.normal, light) - exact) / exact /
-                             (1.0 + 4.0 * epsilon / (1e-14 * grazing)),
+                             (1.0 + 2.0 * epsilon / (1e-14 * grazing)),
                          1e-14);
 }
 
