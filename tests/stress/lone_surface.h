@@ -6,8 +6,6 @@
 
 namespace penumbra::stress {
 
-inline constexpr double radians = 0.017453292519943295;  ///< in a degree
-
 struct LoneSurface {
     Scene scene;
     bool fitToView = false;  ///< --fit view
@@ -19,6 +17,8 @@ struct LoneSurface {
     glm::dvec3 normal() const;
     /// Cosine of the angle between light and normal at `p`.
     double cosine(const glm::dvec3& p) const;
+    /// A spot shines on nothing behind itself, and within half a degree of its plane rounding decides.
+    bool behindSpot(const glm::dvec3& p) const;
 };
 
 /// A triangle of 8 metres and, to push the near plane to where near-far wants it, a small one close to a spot

@@ -31,7 +31,7 @@ struct Options {
     std::vector<const Subject*> subjects;
     std::string report, kept;
     std::vector<std::string> ofOneCase;  ///< --subject and flags of axes
-    bool axisGiven = false;              ///< then it is one case: a subject alone is a sweep of it
+    std::map<std::string, double> pinned;  ///< axes given: without --cases, it is one case
     bool help = false;
 };
 
@@ -102,8 +102,12 @@ Options parse(const std::vector<std::string>& words) {
             options.kept = value;
         } else {
             options.ofOneCase.insert(options.ofOneCase.end(), {flag, value});
-            if (flag == "--subject") options.subjects.push_back(&subjectNamed(value));
-            options.axisGiven |= flag != "--subject";
+            if (flag == "--subject") {
+                options.subjects.push_back(&subjectNamed(value));
+            } else {
+                const std::string name = flag.starts_with("--") ? flag.substr(2) : flag;
+                options.pinned[name] = axisNamed(name).parse(value);
+            }
         }
     }
     if (options.subjects.empty())
@@ -151,6 +155,7 @@ int runSweep(const Options& options) {
     SweepRequest request{.subjects = options.subjects};
     request.cases = options.cases ? options.cases : request.cases;
     request.seed = options.seed;
+    request.pinned = options.pinned;
     request.progress = progress.callback();
     request.stop = [] { return interrupted != 0; };
     request.say = [&progress](const std::string& line) {
@@ -172,7 +177,7 @@ int run(const std::vector<std::string>& words) {
         fmt::print("{}", helpText());
         return exitFine;
     }
-    return options.axisGiven ? runOneCase(options.ofOneCase) : runSweep(options);
+    return options.pinned.empty() || options.cases ? runSweep(options) : runOneCase(options.ofOneCase);
 }
 
 }  // namespace

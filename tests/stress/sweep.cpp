@@ -60,7 +60,9 @@ std::vector<std::uint64_t> quotas(const SweepRequest& request) {
 
 void runOne(SubjectResult& result, const SweepRequest& request) {
     const double start = cpuTime();
-    const Case drawn = drawCase(*result.subject, request.seed, result.cases);
+    Case drawn = drawCase(*result.subject, request.seed, result.cases);
+    for (const auto& [axis, value] : request.pinned)
+        if (drawn.values.contains(axis)) drawn.values[axis] = value;
     const Verdict verdict = verdictOn(*result.subject, drawn);
     count(result, drawn, verdict);
     if (verdict.failure && result.failures.size() < mostShrunk) {

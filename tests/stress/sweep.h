@@ -15,6 +15,7 @@ struct SweepRequest {
     std::vector<const Subject*> subjects;
     std::uint64_t cases = 2000;  ///< over all subjects, by their shares; at least one each
     std::uint64_t seed = 1;
+    std::map<std::string, double> pinned = {};  ///< axes that have one value in all cases
     std::function<void(double fraction)> progress = [](double) {};
     std::function<bool()> stop = [] { return false; };  ///< asked after each case
     std::function<void(const std::string& line)> say = [](const std::string&) {

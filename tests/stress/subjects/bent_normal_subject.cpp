@@ -26,8 +26,9 @@ void seen(Verdict& verdict, const Case& given, const RayTracer& tracer, Dice& di
     // A shading normal may lean away from the surface; what is below the surface is dark.
     const glm::dvec3 normal =
         glm::normalize(hit.geometricNormal + (dice.oneIn(2) ? 0.0 : 0.5) * dice.direction());
-    AmbientRays rays{.count = given.integer("samples"),
-                     .weighting = dice.oneIn(2) ? Weighting::cosine : Weighting::uniform};
+    AmbientRays rays;
+    rays.count = given.integer("samples");
+    rays.weighting = dice.oneIn(2) ? Weighting::cosine : Weighting::uniform;
     const std::uint32_t seed = std::uint32_t(dice.below(1000));
     std::int64_t traced = 0;
     const auto all = castAmbientRays(tracer, hit, normal, rays, seed, traced);

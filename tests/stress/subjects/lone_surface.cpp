@@ -70,6 +70,12 @@ double LoneSurface::cosine(const glm::dvec3& p) const {
     return std::abs(glm::dot(normal(), directionToLight(scene.lights[0], p)));
 }
 
+bool LoneSurface::behindSpot(const glm::dvec3& p) const {
+    const Light& light = scene.lights[0];
+    const glm::dvec3 v = p - light.position;
+    return light.type == LightType::spot && !(glm::dot(v, light.direction) > 0.01 * glm::length(v));
+}
+
 bool besideSmallCaster(const LoneSurface& surface, const LightFrustum& frustum, int mapSize,
                        const glm::dvec3& p, double texels) {
     const glm::dmat4 textureFromWorld = frustum.textureFromWorld();
