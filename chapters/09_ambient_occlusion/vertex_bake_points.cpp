@@ -168,9 +168,8 @@ PointFan::PointFan(const Scene& scene, const BakePoints& points, const BakePoint
     addSectors({wedges.data(), findWedges(scene, points, point, reach, wedges)});
     if (count_ == 0)
         sectors_[count_++] = {
-            -1.0f,
-            glm::vec3(0.0f),
-            {glm::vec3(glm::dvec3(point.position) + liftOf(reach) * glm::dvec3(point.normal))}};
+            -1.0f, glm::vec3(0.0f),
+            glm::vec3(glm::dvec3(point.position) + liftOf(reach) * glm::dvec3(point.normal))};
     starts_.fill(std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < count_; ++i) starts_[i] = sectors_[i].start;
 }
@@ -194,8 +193,7 @@ std::size_t PointFan::findWedges(const Scene& scene, const BakePoints& points, c
         glm::dvec3 start = inside * (centroid - position) + liftOf(reach) * normal;
         // From below the tangent plane it would meet what only just reaches up to it.
         start += std::max(0.0, liftOf(reach) - glm::dot(pointNormal, start)) * pointNormal;
-        wedge.sector.rays.origin = glm::vec3(position + start);
-        if (decisiveHeight(corners, reach) == 0.0f) wedge.sector.rays.besides = t;
+        wedge.sector.origin = glm::vec3(position + start);
         if (!point.corner) {
             wedge.start = -1.0f, wedge.end = 3.0f;
             continue;
@@ -214,7 +212,7 @@ std::size_t PointFan::findWedges(const Scene& scene, const BakePoints& points, c
 
 void PointFan::addSectors(std::span<const Wedge> wedges) {
     const auto addGap = [&](float start, const Wedge& beside) {
-        sectors_[count_++] = {start >= 3.0f ? start - 4.0f : start, glm::vec3(0.0f), beside.sector.rays};
+        sectors_[count_++] = {start >= 3.0f ? start - 4.0f : start, glm::vec3(0.0f), beside.sector.origin};
     };
     for (std::size_t i = 0; i < wedges.size(); ++i) {
         const Wedge& wedge = wedges[i];

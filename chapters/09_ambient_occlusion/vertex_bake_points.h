@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "common/truth/ray_bundle.h"
 
 namespace penumbra {
 
@@ -70,15 +69,11 @@ class PointFan {
 
     /// Frame around the point's normal: columns tangent, bitangent, normal.
     const glm::mat3& worldFromLocal() const { return worldFromLocal_; }
-    struct Start {
-        glm::vec3 origin{0.0f};
-        std::uint32_t besides = BundleRay::noTriangle;  ///< see BundleRay
-    };
     /// Where a ray in this direction (in the local frame, z > 0) begins; nullptr: it goes below the triangle
     /// over which it goes out.
-    const Start* start(const glm::vec3& local, const glm::vec3& world) const {
+    const glm::vec3* origin(const glm::vec3& local, const glm::vec3& world) const {
         const Sector& sector = sectors_[sectorOf(local)];
-        return glm::dot(sector.normal, world) >= 0.0f ? &sector.rays : nullptr;
+        return glm::dot(sector.normal, world) >= 0.0f ? &sector.origin : nullptr;
     }
 
  private:
@@ -87,7 +82,7 @@ class PointFan {
     struct Sector {
         float start = 0.0f;      ///< diamond angle, see .cpp
         glm::vec3 normal{0.0f};  ///< 0: nothing below
-        Start rays = {};
+        glm::vec3 origin{0.0f};
     };
     struct Wedge;
 

@@ -77,9 +77,9 @@ void castRays(const PointFan& fan, const AmbientRays& asked, std::uint32_t seed,
         const glm::vec3 local(r * (cosine * spoke.cosine - sine * spoke.sine),
                               r * (sine * spoke.cosine + cosine * spoke.sine), z);
         const glm::vec3 world = fan.worldFromLocal() * local;
-        const PointFan::Start* start = fan.start(local, world);
-        if (!start) continue;
-        list.rays[list.count] = {start->origin, world, start->besides};
+        const glm::vec3* origin = fan.origin(local, world);
+        if (!origin) continue;
+        list.rays[list.count] = {*origin, world};
         list.even[list.count++] = spoke.even;
     }
 }

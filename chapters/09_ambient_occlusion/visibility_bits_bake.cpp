@@ -85,9 +85,9 @@ void BitsBake::bakePoint(std::size_t index, std::vector<BundleRay>& rays, std::v
     for (const std::uint32_t l : order_) {
         const glm::vec3& direction = bits_.directions[l];
         if (!(glm::dot(point.normal, direction) > 0.0f)) continue;
-        const PointFan::Start* start = fan.start(localFromWorld * direction, direction);
-        if (!start) continue;
-        rays.push_back({start->origin, direction, start->besides});
+        const glm::vec3* origin = fan.origin(localFromWorld * direction, direction);
+        if (!origin) continue;
+        rays.push_back({*origin, direction});
         asked.push_back(l);
     }
     std::vector<std::uint8_t> blocked(rays.size(), 0);

@@ -180,10 +180,11 @@ std::uint32_t tracePacket(RTCSceneTy* scene, unsigned count, const ShadowPacket&
 EmbreeScene::EmbreeScene(const Scene& scene) : scene_(scene) {
     rtcSetSceneFlags(embree_.scene(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(embree_.scene(), RTC_BUILD_QUALITY_HIGH);
-    embree_.build(scene, [](RTCGeometry geometry) {
+    embree_.add(scene.positions, scene.indices, [](RTCGeometry geometry) {
         rtcSetGeometryIntersectFilterFunction(geometry, ignorePartFilter);
         rtcSetGeometryOccludedFilterFunction(geometry, exactShadowFilter);
     });
+    embree_.build(scene);
     heights_.reserve(scene.triangleCount());
     const double reach = largestCoordinate(scene.bounds);
     for (std::size_t t = 0; t < scene.triangleCount(); ++t)
