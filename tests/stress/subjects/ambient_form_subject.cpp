@@ -8,6 +8,7 @@
 #include "common/truth/ambient_forms.h"
 #include "common/truth/edge_coverage.h"
 #include "common/truth/polygon_light.h"
+#include "common/truth/segment_test.h"
 #include "common/truth/shadow_polygon.h"
 #include "tests/stress/bent_bound.h"
 #include "tests/stress/case.h"
@@ -136,15 +137,22 @@ void cells(Verdict& verdict, const Case& given, Dice& dice) {
             scale * glm::dvec3(dice.between(-1.0, 2.0), dice.between(-1.0, 2.0), dice.between(-0.5, 2.0));
     const Polygon2 shadow = shadowPolygon(t, light, receiver);
     constexpr int n = 6;
-    double sum = 0.0, outside = 0.0;
+    double sum = 0.0, outside = 0.0, otherwise = 0.0;
     for (int i = 0; i < n * n; ++i) {
         const glm::dvec2 lower = glm::dvec2(i % n, i / n) / double(n),
                          upper = glm::dvec2(i % n + 1, i / n + 1) / double(n);
         const double covered = cellCoverage(shadow, lower, upper);
         outside = std::max({outside, -covered, covered - 1.0});
+        const bool blocked =
+            crossTriangle({receiver.at(0.5 * (lower + upper)), light}, t) == Crossing::inside;
+        otherwise += (covered == 0.0 && blocked) || (covered == 1.0 && !blocked) ? 1.0 : 0.0;
         sum += covered / (n * n);
     }
     verdict.expectAtMost("cells: coverage outside of [0,1]", outside, few);
+    // A light a thousandth of the receiver high moves a shadow by a thousand times the rounding of its
+    // corners.
+    if (scale > 1e-8 * given.number("distance"))
+        verdict.expectAtMost("cells: seen otherwise by a ray from their middle", otherwise, 0.0);
     compare(verdict, "cells: their sum and the whole", sum, shadow.count < 3 ? 0.0 : std::abs(area(shadow)),
             few);
     for (const glm::dvec2& p : shadow.span())

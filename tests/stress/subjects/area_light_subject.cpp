@@ -107,6 +107,17 @@ void asRaysSeeIt(Verdict& verdict, const AreaLightScene& scene) {
     }
 }
 
+/// A surface does not shadow the points on it, to the bit, wherever it is.
+void onASurface(Verdict& verdict, const AreaLightScene& scene, Dice& dice) {
+    const double size = glm::distance(scene.light[0], scene.x);
+    const glm::dvec3 u = size * dice.direction(), v = size * dice.direction();
+    const auto at = [&](double s, double t) { return scene.x + s * u + t * v; };
+    AreaLightScene more = scene;
+    more.occluders.push_back(
+        {at(-dice.unit(), -dice.unit()), at(dice.unit(), -dice.unit()), at(0.1, dice.unit())});
+    verdict.expectAtMost("shadow of the surface it lies on", std::abs(visible(more) - visible(scene)), 0.0);
+}
+
 /// Turned, scaled and far away it is the same, as well as doubles know where it is.
 void anywhere(Verdict& verdict, const Case& given, const AreaLightScene& scene, Dice& dice) {
     const double scale = given.number("scale");
@@ -117,6 +128,7 @@ void anywhere(Verdict& verdict, const Case& given, const AreaLightScene& scene, 
     const AreaLightScene far = moved(scene, frameAround(dice.direction()), scale,
                                      given.number("distance") / std::sqrt(3.0) * glm::dvec3(1.0));
     inRange(verdict, far);
+    onASurface(verdict, far, dice);
     const double error = tolerated(far);
     if (onTheEdge(far, 64.0 * error) || onTheEdge(scene, 64.0 * error / scale)) return;
     compare(verdict, "turned, scaled and moved", visible(far) - visible(scene),
@@ -133,9 +145,17 @@ void asAccurateAsPromised(Verdict& verdict, const Case& given, const AreaLightSc
     const glm::dvec3 u = snap(size * side), v = snap(size * glm::cross(normal, side));
     const glm::dvec3 corner = snap(scene.light[0] - 0.5 * (u + v));
     const std::array light = {corner, corner + u, corner + u + v, corner + v};
+    const Polygon3 above =
+        clip(Polygon3(light), [&](const glm::dvec3& p) { return glm::dot(scene.normal, p); });
     double grazing = 1.0;
     for (const glm::dvec3& p : light) grazing = std::min(grazing, glm::dot(scene.normal, p) / glm::length(p));
-    if (grazing <= 0.0) return;
+    if (grazing <= 0.0) {
+        verdict.expectAtMost("error of a light that the horizon cuts",
+                             std::abs(formFactor(glm::dvec3(0.0), scene.normal, light) -
+                                      longDoubleFormFactor(scene.normal, above.span())),
+                             1e-14);
+        return;
+    }
     const double exact =
         size < 0.01 ? gaussFormFactor(scene.normal, light) : longDoubleFormFactor(scene.normal, light);
     verdict.expectAtMost("relative error of Lambert's formula",
