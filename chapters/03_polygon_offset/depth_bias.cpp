@@ -62,8 +62,8 @@ float steepestSlope(const LightFrustum& frustum) {
 }
 
 // [begin:caster-draw]
-CasterDraw casterDraw(BiasMethod method, const ShadowMap& map, const LightFrustum& frustum,
-                      const DepthErrors& errors, float scale) {
+CasterDraw casterDraw(BiasMethod method, const LightFrustum& frustum, const DepthErrors& errors,
+                      float scale) {
     CasterDraw draw;
     if (method == BiasMethod::frontFace) draw.frontFacesInstead = true;
     if (method == BiasMethod::midpoint) draw.cullClosed = false;
@@ -72,11 +72,13 @@ CasterDraw casterDraw(BiasMethod method, const ShadowMap& map, const LightFrustu
         // for the snapping.
         draw.offsetFactor = scale * (1.0f + 2.0f * errors.snap);
         // A unit is the format's step, whatever that is: the number that is right for 24 bits is wrong
-        // for 16.
+        // for 16. Of a float format it is the last bit of the triangle's own depth, near the light a
+        // hundredth of what arithmetic rounds away: that is left to pass 2 then.
         const double nearest = frustum.orthographic ? 1.0 : frustum.near;
         const double rounding =
             (errors.rounding.y + errors.rounding.z) / nearest + errors.rasterError.x + errors.rasterError.y;
-        draw.offsetUnits = scale * float(1.0 + std::ceil(rounding / depthQuantum(map.format(), 0.5)));
+        draw.offsetUnits =
+            scale * float(1.0 + (errors.quantum.y > 0.0f ? 0.0 : std::ceil(rounding / errors.quantum.x)));
     }
     return draw;
 }

@@ -40,8 +40,7 @@ float constantBias(const LightFrustum& frustum, int mapSize);
 float steepestSlope(const LightFrustum& frustum);
 
 /// How `method` draws the casters: culling and glPolygonOffset. `scale` multiplies factor and units.
-CasterDraw casterDraw(BiasMethod method, const ShadowMap& map, const LightFrustum& frustum,
-                      const DepthErrors& errors, float scale);
+CasterDraw casterDraw(BiasMethod method, const LightFrustum& frustum, const DepthErrors& errors, float scale);
 
 /// Sets the uniforms of bias.glsl and depth_slope.glsl.
 void setDepthErrors(Program& program, const DepthErrors& errors, const LightFrustum& frustum);

@@ -38,7 +38,7 @@ class PolygonOffset : public Chapter {
         const BiasMethod method = biasMethod(method_);
         const LightSight sight = pass_.fit(frame);
         const DepthErrors errors = bothPassesErrors(sight.map, sight.frustum, frame.scene.bounds);
-        const CasterDraw draw = casterDraw(method, sight.map, sight.frustum, errors, bias_);
+        const CasterDraw draw = casterDraw(method, sight.frustum, errors, bias_);
         pass_.draw(frame, sight, draw);
 
         // Pass 1b, midpoint only: what lies behind the nearest surface.

@@ -60,13 +60,17 @@ DirectionMoments hemisphereMoments() {
 // pi - atan2(k, cos b). So the cap that just touches the horizon, where k loses half its digits, loses none
 // here: what is wrong with k cancels. k = 0 gives the cap that is whole, and the one that is wholly below.
 DirectionMoments capMoments(const glm::dvec3& axis, double sine, double cosine) {
-    const double cosB = axis.z;
-    const double k = std::sqrt(std::max(0.0, (sine - cosB) * (sine + cosB)));
+    const double cosB = axis.z, sinB = std::hypot(axis.x, axis.y);
+    // The same twice; by the smaller of the two. A sphere that touches x would else keep half its digits.
+    const double squared =
+        std::abs(cosB) < sinB ? (sine - cosB) * (sine + cosB) : (sinB - cosine) * (sinB + cosine);
+    const double k = std::sqrt(std::max(0.0, squared));
     const double r = k > 0.0 ? k / (k * k + cosine * cosine) : 0.0;  // k / sin^2 b
     const double p = std::atan2(k, -cosB * cosine);
     const double halfHorizonArc = std::atan2(k, cosine);
-    const glm::dvec3 across = up - cosB * axis;  // in the cap's circle, towards the normal
-    const glm::dvec3 horizontal = axis - cosB * up;
+    // In the cap's circle, towards the normal: up - cosB axis, and axis - cosB up.
+    const glm::dvec3 across(-cosB * axis.x, -cosB * axis.y, sinB * sinB);
+    const glm::dvec3 horizontal(axis.x, axis.y, 0.0);
     const double pSine2 = p * sine * sine;
 
     DirectionMoments m;

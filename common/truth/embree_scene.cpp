@@ -180,17 +180,18 @@ std::uint32_t tracePacket(RTCSceneTy* scene, unsigned count, const ShadowPacket&
 EmbreeScene::EmbreeScene(const Scene& scene) : scene_(scene) {
     rtcSetSceneFlags(embree_.scene(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(embree_.scene(), RTC_BUILD_QUALITY_HIGH);
-    embree_.build(scene, [](RTCGeometry geometry) {
+    embree_.add(scene.positions, scene.indices, [](RTCGeometry geometry) {
         rtcSetGeometryIntersectFilterFunction(geometry, ignorePartFilter);
         rtcSetGeometryOccludedFilterFunction(geometry, exactShadowFilter);
     });
+    embree_.build(scene);
     heights_.reserve(scene.triangleCount());
     const double reach = largestCoordinate(scene.bounds);
     for (std::size_t t = 0; t < scene.triangleCount(); ++t)
         heights_.push_back(decisiveHeight(cornersOf(scene, std::uint32_t(t)), reach));
 }
 
-std::optional<FloatHit> EmbreeScene::nearest(const Ray& ray, const IgnoredTriangles& ignored) const {
+std::optional<std::uint32_t> EmbreeScene::nearest(const Ray& ray, const IgnoredTriangles& ignored) const {
     Query query(scene_, ignored);
     RTCRayHit found{};
     const glm::vec3 origin(ray.origin), direction(ray.direction);
@@ -208,7 +209,7 @@ std::optional<FloatHit> EmbreeScene::nearest(const Ray& ray, const IgnoredTriang
     rtcIntersect1(embree_.scene(), &query.embree, &found);
 #endif
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return FloatHit{found.hit.primID, {found.hit.u, found.hit.v}};
+    return found.hit.primID;
 }
 
 PacketAnswer EmbreeScene::occluded(std::span<const ShadowRay> rays, const ShadowPacket& packet,

@@ -21,12 +21,6 @@ struct IgnoredTriangles {
     bool contains(std::uint32_t triangle) const { return triangle >= begin && triangle < end; }
 };
 
-/// What Embree's nearest hit is good for: a candidate in float.
-struct FloatHit {
-    std::uint32_t triangle = 0;
-    glm::vec2 barycentric{0.0f};
-};
-
 /// Bit i for ray i of a packet.
 struct PacketAnswer {
     std::uint32_t blocked = 0;
@@ -43,7 +37,8 @@ class EmbreeScene {
     /// Throws Error if Embree does not start, or memory is short. Keeps a reference to `scene`.
     explicit EmbreeScene(const Scene& scene);
 
-    std::optional<FloatHit> nearest(const Ray& ray, const IgnoredTriangles& ignored) const;
+    /// The triangle that Embree, in float, finds nearest.
+    std::optional<std::uint32_t> nearest(const Ray& ray, const IgnoredTriangles& ignored) const;
 
     /// `rays`: 1 to 16, and `packet` made of them.
     PacketAnswer occluded(std::span<const ShadowRay> rays, const ShadowPacket& packet,

@@ -57,7 +57,8 @@ class ShadowSegment {
         const double v = r.x * p.y - r.y * p.x;
         const double w = p.x * q.y - p.y * q.x;
         if (std::min({u, v, w}) < 0.0 && std::max({u, v, w}) > 0.0) return false;
-        const glm::dvec3 normal = glm::cross(b - a, c - a);
+        // From the corners themselves: as long as they are floats, one without area has none here either.
+        const glm::dvec3 normal = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
         const double start = glm::dot(normal, a);  // distance of the start from the plane, times |normal|
         const double rounding = 8.0 * epsilon * (sumOfMagnitudes(start_) + sumOfMagnitudes(a));
         if (std::abs(start) <= rounding * glm::length(normal)) return false;

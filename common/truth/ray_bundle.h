@@ -1,7 +1,9 @@
 // Occlusion rays by the million, for bakers: float all the way, and Embree's answer is final. What keeps a
 // surface from shadowing itself is where the rays start (SurfacePoint in
 // chapters/09_ambient_occlusion/vertex_bake.h), not a decision in double as in RayTracer: for a picture's
-// shadow edge that would be too little, for a mean over hundreds of rays it is plenty, and twice as fast.
+// shadow edge that would be too little, for a mean over hundreds of rays it is plenty, and twice as fast. But
+// for triangles so slender that floats do not know their plane (isSlender in the .cpp): they are decided in
+// double, or rods would be dark where rays begin on them.
 #pragma once
 
 #include <cstdint>

@@ -67,11 +67,9 @@ const Scene& RayTracer::scene() const {
 }
 
 Hit RayTracer::nearest(const Ray& ray, int ignorePart) const {
-    const std::optional<FloatHit> found = state_->built().nearest(ray, state_->ignored(ignorePart));
+    const std::optional<std::uint32_t> found = state_->built().nearest(ray, state_->ignored(ignorePart));
     if (!found) return {};
-    const auto corners = cornersOf(state_->scene, found->triangle);
-    return surfaceHit(state_->scene, found->triangle,
-                      exactBarycentrics(ray, corners, glm::dvec2(found->barycentric)));
+    return surfaceHit(state_->scene, *found, exactBarycentrics(ray, cornersOf(state_->scene, *found)));
 }
 
 void RayTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> blocked,

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/truth/light_pyramid.h"
+
 namespace penumbra {
 
 namespace {
@@ -40,12 +42,13 @@ Crossing crossTriangle(const Segment& segment, const std::array<glm::dvec3, 3>& 
 
     // Volumes spanned with the three edges (Plücker): all of one sign means inside. Each is computed from the
     // edge's ends alone, and with the opposite sign for the opposite direction, so neighbours agree on their
-    // common edge.
+    // common edge. Not from cross(pb, pc), which loses the digits of a short edge far away: a triangle of a
+    // micrometre would be hit or missed by a tenth of a nanometre from a metre away.
     const glm::dvec3 d = segment.direction();
     const glm::dvec3 pa = a - segment.origin, pb = b - segment.origin, pc = c - segment.origin;
-    const double u = glm::dot(d, glm::cross(pb, pc));
-    const double v = glm::dot(d, glm::cross(pc, pa));
-    const double w = glm::dot(d, glm::cross(pa, pb));
+    const double u = glm::dot(d, edgePlane(pb, pc));
+    const double v = glm::dot(d, edgePlane(pc, pa));
+    const double w = glm::dot(d, edgePlane(pa, pb));
     const bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
     return inside ? Crossing::inside : Crossing::missed;
 }

@@ -19,7 +19,9 @@ namespace penumbra {
 /// by at most an ulp along each axis. So lifted, the ray cannot slip under an occluder that stands on the
 /// surface, and begun further back it cannot start beyond one, unless it meets it at a grazing angle below
 /// 1/24 within a few ulps of where it starts. The price is a silhouette that is moved by at most 16 ulps,
-/// 2e-6 of the scene's size. Who needs it exacter asks ExactScene, as the truth pictures do.
+/// 2e-6 of the scene's size, and a surface that is missed where it lies over the origin's own by less than
+/// that. Within some ten ulps of a corner Embree itself may find none of the triangles that meet there. Who
+/// needs it exacter asks ExactScene, as the truth pictures do.
 struct ShadowPacket {
     static constexpr unsigned size = 16;
 

@@ -30,10 +30,12 @@ float shadowTest(vec4 pShadow, vec4 dx, vec4 dy) {
     DepthSlope slope = depthSlope(pShadow, str, dx, dy, perQ);
     vec3 rounding = roundingAt(pShadow, pWorld);
     float Q = quantumBias(str.z), C = roundingBias(slope, perQ, str.z, rounding);
-    float bias = 0.0;  // none, polygon-offset, front-face: what there is was done in pass 1
+    float bias = 0.0;  // none, front-face, and polygon-offset of fixed-point depths: what there is was done in pass 1
 
 #if METHOD == CONSTANT
     bias = uConstantBias;
+#elif METHOD == POLYGON_OFFSET
+    if (uQuantum.y > 0.0) bias = Q + C;  // a unit of a float format is too small for this near the light
 #elif METHOD == SLOPE
     bias = slopeBias(slope, perQ, mapSize, rounding) + Q + C;
 #elif METHOD == NORMAL_OFFSET

@@ -58,14 +58,28 @@ class ChapterHarness {
           camera(theScene.cameras.at(0)),
           context_(testContext(api)),
           gpu_(theScene, context_.capabilities()),
-          chapter_(std::move(chapter)) {
-        chapter_->declare(parameters_);
-        chapter_->load(scene, &context_);
+          chapter_(std::move(chapter)),
+          parameters_(std::make_shared<Parameters>()) {
+        chapter_->declare(*parameters_);
+        load();
     }
+    /// The chapter of `other` as it is, its programs compiled, for another scene: what most of a test's time would
+    /// go into is saved. `other` must still be there, so that nothing of this scene has an address that the chapter
+    /// knows. A chapter that keeps something of a scene needs load() too.
+    ChapterHarness(const ChapterHarness& other, const Scene& theScene)
+        : scene(theScene),
+          camera(theScene.cameras.at(0)),
+          context_(other.context_),
+          gpu_(theScene, context_.capabilities()),
+          chapter_(other.chapter_),
+          parameters_(other.parameters_),
+          target_(other.target_) {}
 
-    void set(const std::string& parameter, const std::string& value) { parameters_.set(parameter, value); }
+    void load() { chapter_->load(scene, &context_); }
+
+    void set(const std::string& parameter, const std::string& value) { parameters_->set(parameter, value); }
     /// Those that the chapter declared; `harness.skips().switchOff("kept-maps")` is --no-skip kept-maps.
-    Skips& skips() { return parameters_.skips(); }
+    Skips& skips() { return parameters_->skips(); }
     void set(const Settings& settings) {
         for (const auto& [parameter, value] : settings) set(parameter, value);
     }
@@ -73,10 +87,10 @@ class ChapterHarness {
     /// A frame like the one a chapter is given, its framebuffer bound.
     Frame frame(const std::string& view, const glm::ivec2& size) {
         if (!target_ || target_->size() != size)
-            target_ = std::make_unique<RenderTarget>(size, context_.capabilities());
+            target_ = std::make_shared<RenderTarget>(size, context_.capabilities());
         target_->bind();
         work.clear();
-        skips_ = parameters_.skips();
+        skips_ = parameters_->skips();
         declareMapSkips(skips_);  // tests use the frame for maps of their own too
         if (!skip) skips_.switchAllOff();
         return {.scene = scene,
@@ -137,10 +151,10 @@ class ChapterHarness {
 
     const Context& context_;
     GpuScene gpu_;
-    std::unique_ptr<Chapter> chapter_;
-    Parameters parameters_;
+    std::shared_ptr<Chapter> chapter_;
+    std::shared_ptr<Parameters> parameters_;
+    std::shared_ptr<RenderTarget> target_;
     Skips skips_;  ///< of the latest frame
-    std::unique_ptr<RenderTarget> target_;
     std::unique_ptr<RayTracer> tracer_;
     ProgressCallback silent_;
     FloatImage unused_;

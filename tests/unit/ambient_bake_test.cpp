@@ -126,6 +126,23 @@ TEST(Bake, ConvexSurfacesAreOpenToTheLastBit) {
         EXPECT_EQ(v.visibility, 1.0);
 }
 
+TEST(Bake, ANeedleDoesNotShadowItself) {
+    // A hundred thousand times as long as wide: floats turn its plane by degrees.
+    std::mt19937_64 random(31);
+    BakeSettings settings = alone(64);
+    settings.skip = false;
+    for (int i = 0; i < 100; ++i) {
+        const glm::dvec3 along = randomDirection(random), tip = 0.1 * randomDirection(random);
+        const glm::dvec3 across = glm::normalize(glm::cross(along, randomDirection(random)));
+        Scene scene = emptyScene();
+        addPart(scene, {tip + 0.7 * along, tip, tip + 5e-6 * across}, {0, 1, 2}, scaledAndMoved(1.0, 0.0));
+        for (const AmbientValue& v : baked(scene, settings).values) EXPECT_EQ(v.visibility, 1.0) << i;
+        const BakedBits bits = bakeBits(scene, RayBundle(scene), 64, {});
+        for (std::size_t l = 0; l < 64; ++l)
+            EXPECT_EQ(bits.bits.open(0, l), glm::dot(scene.normals[0], bits.bits.directions[l]) > 0.0f) << i;
+    }
+}
+
 TEST(Bake, ACreaseShadowsItself) {
     // Two half planes at a right angle that share the vertices, and the normal, of their edge: from there a
     // quarter of the circle around the normal is open, A = (cos 45 deg - cos 135 deg) / 2.

@@ -101,6 +101,14 @@ Meridians profileByMeridians(double from, double to) {
     return sky;
 }
 
+TEST(AmbientForms, OfASphereThatTouchesThePointAWedgeIsLeftHoweverThin) {
+    for (const double angle : {1e-12, 1e-9, 1e-6, 1e-3, 0.1, 1.0}) {
+        const AmbientForm form = ambientUnderSphere({std::sin(angle), 0.0, std::cos(angle)}, 1.0);
+        const AmbientForm wedge = ambientInProfile(std::numbers::pi - angle, std::numbers::pi);
+        EXPECT_LE(difference(form, wedge), 1e-15) << angle;
+    }
+}
+
 TEST(AmbientForms, ProfilesByQuadrature) {
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> angle(0.0, pi);

@@ -224,6 +224,21 @@ TEST(ExactScene, SegmentEndsDoNotCount) {
     EXPECT_FALSE(exact.occluded({2, 0.1, -1}, noTriangle, {2, 0.1, 1}));
 }
 
+TEST(ExactScene, ATriangleWithoutAreaShadowsNothing) {
+    // Three floats in a line; segments that go right through it.
+    const Triangle line = {
+        dvec3(58.3125, -171.875, -60.125), {8.3125, -127.875, 26.25}, {33.3125, -149.875, -16.9375}};
+    const ExactScene exact(makeScene({{line}}));
+    std::mt19937 random(21);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (int trial = 0; trial < 2000; ++trial) {
+        const dvec3 x(300.0 * uniform(random), 300.0 * uniform(random), 300.0 * uniform(random));
+        const dvec3 on = line[0] + (0.5 + 0.5 * uniform(random)) * (line[1] - line[0]);
+        EXPECT_FALSE(exact.occluded(x, noTriangle, on + 0.5 * (on - x)));
+        EXPECT_FALSE(exact.occluded(x, noTriangle, line[2] + 1e-9 * (line[2] - x)));
+    }
+}
+
 TEST(ExactScene, AnEmptySceneShadowsNothing) {
     const ExactScene exact((Scene()));
     EXPECT_FALSE(exact.occluded({0, 0, 0}, noTriangle, {0, 0, 5}));

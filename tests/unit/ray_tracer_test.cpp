@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/truth/exact_scene.h"
+#include "common/truth/segment_test.h"
 #include "tests/unit/test_meshes.h"
 
 namespace penumbra {
@@ -71,6 +72,71 @@ TEST(Nearest, MeetsTheSphereBetweenChordAndArc) {
         EXPECT_LT(glm::dot(hit.geometricNormal, d), 0.0);
     }
     EXPECT_FALSE(tracer.nearest({{0, 0, 4}, {0, 1, 0}}).valid);
+}
+
+/// How far from its ray a hit lies, metres.
+double offItsRay(const Hit& hit, const Ray& ray) {
+    return glm::length(glm::cross(hit.position - ray.origin, glm::normalize(ray.direction)));
+}
+
+TEST(Nearest, LiesOnItsRayHoweverSmallTheTriangle) {
+    std::mt19937_64 random(41);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    Scene scene = emptyScene();
+    addPart(scene, {{0.3, 0.4, 0.5}, {0.301, 0.4, 0.5}, {0.3, 0.401, 0.5003}}, {0, 1, 2},
+            scaledAndMoved(1.0, 0.0));
+    const RayTracer tracer(scene);
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 eye =
+            100.0 * glm::dvec3(uniform(random), uniform(random), 1.5 + 0.5 * uniform(random));
+        const Ray ray{eye, pointOn(scene, 0, 0.2 + 0.1 * uniform(random), 0.2 + 0.1 * uniform(random)) - eye};
+        const Hit hit = tracer.nearest(ray);
+        ASSERT_TRUE(hit.valid);
+        EXPECT_LE(offItsRay(hit, ray), 64.0 * 0x1p-53 * 200.0);  // 1e-11 if edges lost their digits
+    }
+}
+
+TEST(Nearest, LiesOnItsRayOnATriangleWithoutAreaToo) {
+    // Three floats in a line. Embree's barycentric coordinates lead anywhere on it.
+    Scene scene = emptyScene();
+    addQuad(scene, {-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9});
+    for (const int corner : {1, 2}) scene.indices[std::size_t(corner)] = std::uint32_t(corner == 1 ? 4 : 5);
+    for (const glm::vec3& p : {glm::vec3(2.25f, 15.25f, -5.0f), glm::vec3(5.25f, 15.75f, -6.5f)}) {
+        scene.positions.push_back(p);
+        scene.normals.emplace_back(0.0f, 1.0f, 0.0f);
+        scene.uvs.emplace_back(0.0f);
+    }
+    scene.positions[0] = {3.75f, 15.5f, -5.75f};
+    const RayTracer tracer(scene);
+    std::mt19937_64 random(42);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::dvec3 eye(40.0 * uniform(random), 60.0 + 20.0 * uniform(random), 40.0 * uniform(random));
+        const Ray ray{eye, glm::dvec3(scene.positions[4]) +
+                               (0.5 + 0.5 * uniform(random)) * glm::dvec3(3.0, 0.5, -1.5) - eye};
+        const Hit hit = tracer.nearest(ray);
+        if (!hit.valid || hit.triangle != 0) continue;
+        ++hits;
+        EXPECT_LE(offItsRay(hit, ray), 64.0 * 0x1p-23 * 80.0);
+    }
+    EXPECT_GT(hits, 0) << "no ray met it: the case tests nothing";
+}
+
+TEST(CrossTriangle, IsSureOfTheEdgesOfASmallTriangleFarAway) {
+    std::mt19937_64 random(43);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const glm::dvec3 far(0.57, -0.31, 0.376);
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 u = randomDirection(random),
+                         w = glm::normalize(glm::cross(u, randomDirection(random)));
+        const glm::dvec3 v = glm::cross(w, u);
+        if (std::abs(glm::dot(w, far)) < 0.1) continue;
+        const std::array<glm::dvec3, 3> t = {far, far + 1e-6 * u, far + 1e-6 * v};
+        const glm::dvec3 onEdge = far + (0.5 + 0.4 * uniform(random)) * 1e-6 * u;
+        EXPECT_EQ(crossTriangle({glm::dvec3(0.0), onEdge + 1e-13 * v, true}, t), Crossing::inside);
+        EXPECT_EQ(crossTriangle({glm::dvec3(0.0), onEdge - 1e-13 * v, true}, t), Crossing::missed);
+    }
 }
 
 TEST(Nearest, LeavesOutTheIgnoredPart) {
