@@ -93,6 +93,8 @@ CASES = (
              skip("rays-to-open-sky"),), whole=True, runs=1),
     Case("many maps", "10_accumulated_occlusion", "gully", ("--samples", "128", "--view", "ambient"), (
         skip("maps-below-horizon"), skip("look-ups-facing-away"), everything("shadow_maps_rendered")), runs=2),
+    Case("many maps, on the ground", "10_accumulated_occlusion", "heckbert_herf",
+         ("--samples", "128", "--view", "ambient", "--camera", "1"), (skip("maps-below-horizon"),), runs=2),
     Case("many maps, nothing moves", "10_accumulated_occlusion", "gully",
          ("--samples", "128", "--view", "ambient", "--still"), (skip("kept-occlusion"),), runs=2),
 )
