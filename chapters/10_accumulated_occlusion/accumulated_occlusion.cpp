@@ -44,6 +44,7 @@ struct AccumulatedOcclusion::State {
     std::optional<ReceiverHorizons> horizons;
     std::optional<Key> held;
     BoundingSphere sphere;
+    SkyBias bound;
     std::uint32_t frames = 0;  ///< that were added up
     bool perVertex = false;
 
@@ -92,6 +93,9 @@ void AccumulatedOcclusion::State::addDirections(const Frame& frame, const Occlus
                                                 const Sky& sky, std::vector<glm::dvec3> directions) {
     directions = compactOrder(std::move(directions), leaf);
     const std::size_t all = directions.size();
+    std::vector<LightFrustum> everyone;
+    for (const glm::dvec3& l : directions) everyone.push_back(skyFrustum(sphere, l));
+    bound = skyBias(maps->format(), everyone, frame.scene.bounds, options.mapSize);
     // What is below everyone's horizon needs no map.
     if (horizons) std::erase_if(directions, [&](const glm::dvec3& l) { return !horizons->above(l); });
     frame.work["directions_added"] += std::int64_t(all);
@@ -114,8 +118,8 @@ void AccumulatedOcclusion::State::addBatch(const Frame& frame, const OcclusionOp
     maps->render(depth, frame, frusta);
     // Pass 3: every receiver looks all of them up.
     const PassScope scope(frame.passTimer, "look-ups");
-    sums.add(receivers, *maps, frame.scene.bounds,
-             {directions, radiances, frusta, frame.skips(lookUpsFacingAway), frame.view == "work",
+    sums.add(receivers, *maps,
+             {directions, radiances, frusta, bound, frame.skips(lookUpsFacingAway), frame.view == "work",
               options.bias, options.softEdges() ? cellTangent(options.samples) : 0.0});
 }
 // [end:batches]

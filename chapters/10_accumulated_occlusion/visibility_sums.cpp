@@ -60,9 +60,9 @@ void setMaps(Program& program, const SkyMaps& maps, const SkyBatch& batch) {
     program.setTexture("uMaps", GL_TEXTURE_2D_ARRAY, maps.texture());
 }
 
-void setBias(Program& program, const SkyMaps& maps, const Aabb& bounds, const SkyBatch& batch) {
+void setBias(Program& program, const SkyMaps& maps, const SkyBatch& batch) {
     const LightFrustum& frustum = batch.frusta.front();  // all are equally large
-    const SkyBias bias = skyBias(maps.format(), batch.frusta, bounds, maps.mapSize());
+    const SkyBias& bias = batch.bound;
     const double texelsPerMetre = maps.mapSize() / (2.0 * frustum.halfExtent.x);
     program.set("uDepthPerMetre", float(1.0 / (frustum.far - frustum.near)));
     program.set("uBiasPerSlope", batch.bias * bias.perSlope / float(texelsPerMetre));
@@ -87,8 +87,7 @@ void VisibilitySums::clear(const glm::ivec2& size) {
     sums_[0]->clear();
 }
 
-void VisibilitySums::add(const Receivers& receivers, const SkyMaps& maps, const Aabb& bounds,
-                         const SkyBatch& added) {
+void VisibilitySums::add(const Receivers& receivers, const SkyMaps& maps, const SkyBatch& added) {
     std::vector<std::string> defines;
     defines.reserve(3);
     defines.emplace_back("BATCH " + std::to_string(batch));
@@ -96,7 +95,7 @@ void VisibilitySums::add(const Receivers& receivers, const SkyMaps& maps, const 
     if (added.cellTangent > 0.0) defines.emplace_back("SOFT_EDGES");
     Program& program = add_.with(defines);
     setMaps(program, maps, added);
-    setBias(program, maps, bounds, added);
+    setBias(program, maps, added);
     const DirectionCone cone = added.skip ? coneAround(added.directions) : DirectionCone{};
     program.set("uCone", glm::vec4(cone.axis, cone.below));
     program.setTexture("uPositions", GL_TEXTURE_2D, receivers.positions());

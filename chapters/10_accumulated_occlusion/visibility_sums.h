@@ -42,6 +42,7 @@ struct SkyBatch {
     std::span<const glm::dvec3> directions;
     std::span<const glm::dvec3> radiances;
     std::span<const LightFrustum> frusta;
+    SkyBias bound;  ///< derived for all directions of the frame: it must not depend on who is in which batch
     bool skip = true;          ///< lookUpsFacingAway
     bool countWork = false;    ///< count look-ups in place of light
     float bias = 1.0f;         ///< multiple of the derived bound
@@ -57,7 +58,7 @@ class VisibilitySums {
     /// Everything 0, for receivers of that size.
     void clear(const glm::ivec2& size);
     /// Adds the batch to the sums of all receivers: one full-screen pass.
-    void add(const Receivers& receivers, const SkyMaps& maps, const Aabb& bounds, const SkyBatch& added);
+    void add(const Receivers& receivers, const SkyMaps& maps, const SkyBatch& added);
     /// The means of all that was added, of `directions` directions.
     const TexturePair& resolve(int directions);
     const TexturePair& resolved() const { return *resolved_; }

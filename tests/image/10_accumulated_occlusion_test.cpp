@@ -265,6 +265,16 @@ TEST(Chapter10Exact, SkippingChangesNoBit) {
     }
 }
 
+// Who is left out decides who shares a batch with whom. A bias derived for a batch would differ, and with it
+// two pixels of this picture.
+TEST(Chapter10Exact, TheBiasDoesNotDependOnTheBatch) {
+    ChapterHarness harness = harnessOf(testScene("gully"), {{"samples", "128"}});
+    const FloatImage usual = harness.scalar("ambient", {512, 512});
+    harness.skips().switchOff(mapsBelowHorizon.name);
+    harness.renderMapsAgain = true;
+    EXPECT_EQ(differing(usual, harness.scalar("ambient", {512, 512})), 0u);
+}
+
 TEST(Chapter10Work, DirectionsBelowTheGroundNeedNoMap) {
     const Scene scene = floorScene(false);
     ChapterHarness harness = harnessOf(scene, {{"samples", "100"}});

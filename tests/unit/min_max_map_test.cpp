@@ -15,7 +15,7 @@ namespace {
 
 /// Nothing but what ChapterHarness needs to make a frame.
 struct NoChapter : Chapter {
-    void declare(Parameters&) override {}
+    void declare(Parameters& parameters) override { parameters.skips().declare(keptMinMax); }
     void load(const Scene&, const Context*) override {}
     void render(const Frame&) override {}
     TruthImage truth(const TruthRequest&) override { return {}; }

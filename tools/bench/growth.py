@@ -56,7 +56,7 @@ class Growth:
     def points(self, quick):
         if not quick:
             return [self.point(value) for value in self.values]
-        return [self.point(value) for value in QUICK[self.axis]] if self.quick else []
+        return [self.point(value) for value in QUICK[self.axis] if value in self.values] if self.quick else []
 
 
 AREA = ("--light", "1", "--others", "unshadowed", "--view", "irradiance")
@@ -98,7 +98,7 @@ GROWTHS = (
     *alike("samples", SAMPLES, [
         ("00 rays", "00_ray_traced_truth", ("--light", "1", "--adaptive", "off", *SMALL),
          {"quick": True, "flag": "--samples"}),
-        ("07 branching", "07_branching", (), {"quick": True, "flag": "--samples"}),
+        ("07 branching", "07_branching", (), {"quick": True, "flag": "--samples", "values": SAMPLES[1:]}),
         ("08 masks", "08_accumulation", AREA, {"quick": True, "flag": "--samples"}),
         ("08 accumulated", "08_accumulation", (*AREA, "--method", "accumulate"), {"flag": "--samples"}),
         ("09 rays", "09_ambient_occlusion", (*RAYS, *SMALL), {"flag": "--samples"}),

@@ -58,14 +58,14 @@ MAPS = ("--fit", "view", "--map-size", "1024")
 NEAR = ("--light", "1", "--camera", "1", "--map-size", "256", "--size", "128x128")  # few pixels: the triangles' time shows
 MASKS = ("--others", "unshadowed", "--view", "irradiance")
 CASES = (
-    Case("a light's rays", "00_ray_traced_truth", "courtyard", ("--samples", "16", "--size", "256x256"), (
+    Case("a light's rays", "00_ray_traced_truth", "courtyard", ("--samples", "64", "--size", "256x256"), (
         skip("rays-facing-away"),
         Off("--adaptive off", ("--adaptive", "off"), "shadow_rays", "16 rays that agree stand for the rest: a guess, nearly "
             "always right", exact=False)), runs=1),
     Case("a lantern, and half of the scene in sight", "03_polygon_offset", "courtyard", NEAR, (
         skip("clusters-off-map"), skip("clusters-unseen", quick=True), everything("triangles_shaded")), runs=15),
     Case("nothing moves", "03_polygon_offset", "courtyard", (*MAPS, "--still"), (skip("kept-maps"),)),
-    Case("a wide filter", "07_branching", "courtyard", MAPS, (
+    Case("a wide filter", "07_branching", "courtyard", (*MAPS, "--samples", "64"), (
         Off("--classify none", ("--classify", "none"), "visibility_tests", "all taps only where the minima and maxima of "
             "the map leave open whether all of them agree"), everything("visibility_tests"))),
     Case("a wide filter, nothing moves", "07_branching", "courtyard", (*MAPS, "--still"), (skip("kept-min-max"),)),
@@ -93,6 +93,8 @@ CASES = (
              skip("rays-to-open-sky"),), whole=True, runs=1),
     Case("many maps", "10_accumulated_occlusion", "gully", ("--samples", "128", "--view", "ambient"), (
         skip("maps-below-horizon"), skip("look-ups-facing-away"), everything("shadow_maps_rendered")), runs=2),
+    Case("many maps, on the ground", "10_accumulated_occlusion", "heckbert_herf",
+         ("--samples", "128", "--view", "ambient", "--camera", "1"), (skip("maps-below-horizon"),), runs=2),
     Case("many maps, nothing moves", "10_accumulated_occlusion", "gully",
          ("--samples", "128", "--view", "ambient", "--still"), (skip("kept-occlusion"),), runs=2),
 )
