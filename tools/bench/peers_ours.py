@@ -4,6 +4,7 @@ from pathlib import Path
 
 from bench import peers_jobs as jobs
 from bench.peers_curves import figures
+from bench.runner import errorOf
 
 QUIET = ("--headless", "--quiet")
 
@@ -15,18 +16,18 @@ def reported(words, folder):
     return jobs.readJson(file), used
 
 
-def shadow(point, compare):
+def shadow(point):
     words = [*point.command(), *jobs.VIEWS[point.scene].flags(), "--view", "visibility"]
     with tempfile.TemporaryDirectory() as folder:
         timed, used = reported([*words, "--runs", "3"], folder)
         once, whole = reported(words, folder)
-        error = reported([*words, "--compare-truth"], folder)[0]["error"] if compare else None
+        error = errorOf(reported([*words, "--compare-truth"], folder)[0]["error"])
     frame = timed["time"]
-    return jobs.sample(1e-3 * frame["frame_cpu_ms"]["median"], 1e-3 * frame["frame_ms"]["median"], whole, error,
+    return jobs.sample(1e-3 * frame["frame_cpu_ms"]["median"], 1e-3 * frame["frame_ms"]["median"], whole.cpu_s, error,
                        renderer=once["renderer"], runs=3)
 
 
-def bake(point, compare):
+def bake(point):
     """A bake happens once, before the first frame: it is the whole process without what it takes to show the same scene by
     its normals alone. Chapter 10 adds up its maps in every frame, and writes a file besides."""
     small = ("--size", "16x16")
@@ -38,11 +39,13 @@ def bake(point, compare):
         else:
             _, idle = reported([point.chapter, "--scene", point.scene, "--method", "hemisphere", *small], folder)
             cpu, wall = max(whole.cpu_s - idle.cpu_s, 1e-3), max(whole.wall_s - idle.wall_s, 1e-3)
-        error = None
-        if compare:
-            saved = Path(folder) / "baked.glb"
-            jobs.run([jobs.program(point.chapter), *point.command()[1:], *small, *QUIET, "--save", saved,
-                      "--output", Path(folder) / "picture.png"])
-            truth = jobs.vertexTruth(point.scene)[0].values
-            error = figures([a - b for a, b in zip(jobs.vertexValues(saved), truth)])
-    return jobs.sample(cpu, wall, whole, error, renderer=report["renderer"])
+        error = vertexErrors(point, small, Path(folder) / "baked.glb")
+    sample = jobs.sample(cpu, wall, whole.cpu_s, error, renderer=report["renderer"])
+    return jobs.withNoise(sample, jobs.vertexTruth(point.scene)[1])
+
+
+def vertexErrors(point, small, saved):
+    jobs.run([jobs.program(point.chapter), *point.command()[1:], *small, *QUIET, "--save", saved,
+              "--output", saved.with_suffix(".png")])
+    truth = jobs.vertexTruth(point.scene)[0].values
+    return figures([a - b for a, b in zip(jobs.vertexValues(saved), truth)])

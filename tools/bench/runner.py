@@ -34,10 +34,14 @@ def words(point, runs, compare, report):
     return command + (["--compare-truth"] if compare else [])
 
 
-def runChild(command):
-    """(exit status, what it said on stderr, peak memory in MB). The child is ended when it hangs or we are interrupted."""
+def runChild(command, output=subprocess.DEVNULL, environment=None):
+    """(exit status, what it said on stderr, resources it used). It is ended when it hangs or we are interrupted.
+
+    `output`: subprocess.STDOUT keeps what it said on both.
+    """
     with tempfile.TemporaryFile() as said:
-        child = subprocess.Popen(command, cwd=build.ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
+        child = subprocess.Popen(command, cwd=build.ROOT, stdin=subprocess.DEVNULL, stderr=said, env=environment,
+                                 stdout=said if output == subprocess.STDOUT else output)
         timer = threading.Timer(LIMIT_S, child.kill)
         timer.start()
         try:
@@ -50,7 +54,7 @@ def runChild(command):
         finally:
             timer.cancel()
         said.seek(0)
-        return child.returncode, said.read().decode(errors="replace").strip(), usage.ru_maxrss / 1024.0
+        return child.returncode, said.read().decode(errors="replace").strip(), usage
 
 
 def errorOf(entry):
@@ -68,14 +72,14 @@ def measure(point, runs=1, compare=True):
     """One sample: a dict as it is kept in results.jsonl. Throws PointError."""
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.json"
-        status, said, memory = runChild(words(point, runs, compare, report))
+        status, said, usage = runChild(words(point, runs, compare, report))
         if status != 0 or not report.is_file():
             raise PointError((said or f"no message; status {status}").splitlines()[-1])
         read = json.loads(report.read_text())
     time = read["time"]
     sample = {"wall_ms": time["frame_ms"]["median"], "wall_min_ms": time["frame_ms"]["min"],
               "cpu_ms": time["frame_cpu_ms"]["median"], "cpu_min_ms": time["frame_cpu_ms"]["min"],
-              "setup_ms": time["setup_ms"], "runs": time["frame_ms"]["runs"], "memory_mb": memory,
+              "setup_ms": time["setup_ms"], "runs": time["frame_ms"]["runs"], "memory_mb": usage.ru_maxrss / 1024.0,
               "compared": compare,
               "once_ms": sum(time.get("passes_ms", {}).get(name, {}).get("median", 0.0) for name in point.once), "work": read["work"], "renderer": read["renderer"], "backend": read["backend"]}
     if compare:
