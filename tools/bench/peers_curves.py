@@ -36,6 +36,6 @@ def atEqualError(ours, theirs):
     if not ours.points or not theirs.points:
         return None
     error = max(min(point[1] for point in curve.points) for curve in (ours, theirs))
-    cheapest = [(name, min(curve.points, key=lambda point: point[:2])[1]) for name, curve in (("ours", ours), ("theirs", theirs))]
-    bound = next((name for name, reached in cheapest if reached < error), "")
+    bound = next((name for name, curve in (("ours", ours), ("theirs", theirs))
+                  if min(curve.points, key=lambda point: point[:2])[1] < error), "")
     return AtEqualError(error, curves.timeTo(ours, error)[0], curves.timeTo(theirs, error)[0], bound)

@@ -81,7 +81,8 @@ def measure(point, runs=1, compare=True):
               "cpu_ms": time["frame_cpu_ms"]["median"], "cpu_min_ms": time["frame_cpu_ms"]["min"],
               "setup_ms": time["setup_ms"], "runs": time["frame_ms"]["runs"], "memory_mb": usage.ru_maxrss / 1024.0,
               "compared": compare,
-              "once_ms": sum(time.get("passes_ms", {}).get(name, {}).get("median", 0.0) for name in point.once), "work": read["work"], "renderer": read["renderer"], "backend": read["backend"]}
+              "once_ms": sum(time.get("passes_ms", {}).get(name, {}).get("median", 0.0) for name in point.once),
+              "work": read["work"], "renderer": read["renderer"], "backend": read["backend"]}
     if compare:
         sample["error"] = errorOf(read.get("error"))
         sample["area_light"] = errorOf(read.get("error_area_light"))
