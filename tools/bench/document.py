@@ -32,8 +32,9 @@ def head(machine, results):
             f"by `./run bench`, which wrote it: {len(results)} points on {', '.join(scenes)}, {frames} timed frames, their "
             "repeats interleaved so that noise of the machine hits all alike.", "",
             f"Measured on {machine['processor']} ({machine['cores']} cores), {machine['renderer']}, {machine['date']}, commit "
-            f"{machine['commit']}, load {machine['load']:g}. Another machine has other times; their ratios are what "
-            "`./run bench --check` compares with bounds."]
+            f"{machine['commit']}; load average {machine['load']:.1f}, of which a program that is measured is up to "
+            f"{machine['cores']}. Another machine has other times; their ratios are what `./run bench --check` compares with "
+            "bounds."]
 
 
 def read(text):
