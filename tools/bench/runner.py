@@ -80,7 +80,7 @@ def measure(point, runs=1, compare=True):
     sample = {"wall_ms": time["frame_ms"]["median"], "wall_min_ms": time["frame_ms"]["min"],
               "cpu_ms": time["frame_cpu_ms"]["median"], "cpu_min_ms": time["frame_cpu_ms"]["min"],
               "setup_ms": time["setup_ms"], "runs": time["frame_ms"]["runs"], "memory_mb": usage.ru_maxrss / 1024.0,
-              "compared": compare,
+              "process_cpu_s": usage.ru_utime + usage.ru_stime, "compared": compare,
               "once_ms": sum(time.get("passes_ms", {}).get(name, {}).get("median", 0.0) for name in point.once),
               "work": read["work"], "renderer": read["renderer"], "backend": read["backend"]}
     if compare:
