@@ -105,7 +105,7 @@ TECHNIQUES = (
     Technique("07 contact-hardening", "07_branching", "area", "samples", (16, 64, 256), (16, 64, 256),
               (*SOFT, "--penumbra", "contact-hardening", "--radius", "64", "--samples", "{}"),
               "one map from the light's middle: cheap, and blind to what only the light's rim sees", AREA_LIGHT),
-    Technique("08 mask", "08_accumulation", "area", "samples", (4, 16, 64, 256, 1024), (4, 16, 64, 256),
+    Technique("08 mask", "08_accumulation", "area", "samples", (4, 16, 64, 256, 1024), (4, 16, 64),
               (*SOFT, "--method", "mask", "--samples", "{}", "--others-samples", "{}"),
               "32 light points a draw call, a bit each, on the texels that a shadow can reach", AREA_LIGHT),
     Technique("08 accumulate", "08_accumulation", "area", "samples", (4, 16, 64, 256, 1024), (4, 16, 64),
