@@ -4,7 +4,7 @@ Blender's Cycles and MeshLab come from Debian's packages and are installed when 
 They get the course's own scenes, exported by bench.export, and are compared with the course's own exact answers.
 """
 import shutil
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import build
 import tables
@@ -85,32 +85,28 @@ def prepare():
 
 
 def points(quick):
-    """The last flag changes when what prepares and asks has changed, and all is measured again."""
-    made, recipe = [], ("--recipe", peers_jobs.recipe())
+    """The last two words are no flags: they change when what prepares and asks has changed, and all is measured again."""
+    made, recipes = [], {True: ("--recipe", peers_jobs.recipe()), False: ("--recipe", peers_ours.recipe())}
     for way in WAYS:
         if way.chapter in absent:
             continue
         for scene in way.scenes[:1] if quick else way.scenes:
             for value in way.values[:way.quick] if quick else way.values:
-                flags = tuple(word.format(value=value) for word in way.flags)
-                made.append(Point(NAME, scene, way.technique, way.chapter, way.axis, value,
-                                  flags + (recipe if way.chapter in PEERS else ()), way.quantity))
+                flags = tuple(word.format(value=value) for word in way.flags) + recipes[way.chapter in PEERS]
+                made.append(Point(NAME, scene, way.technique, way.chapter, way.axis, value, flags, way.quantity))
     return made
 
 
 def measure(point):
-    value = int(point.value)
+    asked, value = replace(point, flags=point.flags[:-2]), int(point.value)
     try:
         if point.chapter == "blender":
-            ask = peers_cycles.shadow if point.quantity == SHADOW else peers_cycles.bake
-            sample = ask(point.scene, value)
-        elif point.chapter == "meshlabserver":
-            sample = peers_meshlab.bake(point.scene, value, int(point.flags[point.flags.index("--map-size") + 1]))
-        else:
-            sample = (peers_ours.shadow if point.quantity == SHADOW else peers_ours.bake)(point)
+            return (peers_cycles.shadow if point.quantity == SHADOW else peers_cycles.bake)(point.scene, value)
+        if point.chapter == "meshlabserver":
+            return peers_meshlab.bake(point.scene, value, int(asked.flags[asked.flags.index("--map-size") + 1]))
+        return (peers_ours.shadow if point.quantity == SHADOW else peers_ours.bake)(asked)
     except (OSError, ValueError, KeyError, peers_jobs.export.ExportError) as problem:
         raise PointError(f"{type(problem).__name__}: {problem}") from problem
-    return sample
 
 
 def groups(results):
@@ -131,8 +127,8 @@ def shown(ms):
 
 
 def measuredTable(curves):
-    rows = [[technique, f"{r['axis']} {r['value']:g}", f"{r['error']['rmse']:.5f}", f"{r['error']['bias']:+.5f}",
-             shown(r["cpu_ms"]), shown(r["wall_ms"]), shown(r["process_cpu_ms"])]
+    rows = [[technique, f"{r['axis']} {r['value']:g}" if r["value"] else "–", f"{r['error']['rmse']:.5f}",
+             f"{r['error']['bias']:+.5f}", shown(r["cpu_ms"]), shown(r["wall_ms"]), shown(r["process_cpu_ms"])]
             for technique, results in curves.items() for r in results]
     return tables.markdown(["program", "setting", "error", "bias", "CPU ms", "ms", "CPU ms, whole process"], rows,
                            ["---", "---"] + 5 * ["---:"])

@@ -1,4 +1,5 @@
 """The chapters beside the peers, measured by the same means: the frame or the bake alone, and the whole process."""
+import hashlib
 import tempfile
 from pathlib import Path
 
@@ -17,11 +18,17 @@ def reported(words, folder):
     return jobs.readJson(file), used
 
 
+def recipe():
+    """Of the code that asks, as peers_jobs.recipe for the others."""
+    files = (Path(__file__), Path(jobs.__file__), Path(jobs.export.__file__))
+    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:8]
+
+
 def timed(words, folder):
-    """(seconds of CPU and of wall for a frame, report and jobs.Used of a process that draws once). Slow frames are not
-    drawn again for a median."""
-    report, whole = reported(words, folder)
-    if report["time"]["frame_ms"]["median"] < SLOW_MS:
+    """(seconds of CPU and of wall for a frame, report, jobs.Used of a process that draws it once)."""
+    _, whole = reported([*words, "--still"], folder)
+    report, _ = reported(words, folder)
+    if report["time"]["frame_ms"]["median"] < SLOW_MS:  # slow frames are not drawn again for a median
         report, _ = reported([*words, "--runs", "5"], folder)
     frame = report["time"]
     return 1e-3 * frame["frame_cpu_ms"]["median"], 1e-3 * frame["frame_ms"]["median"], report, whole
