@@ -335,6 +335,17 @@ class CommandTest(BenchTest):
         self.assertIn("failed: error/knot/area/00 rays/samples=13: no luck with thirteen", said)
         self.assertTrue((self.root / "out/benchmark.html").is_file())
 
+    def testAnInterruptSaysThatTheSameCommandGoesOn(self):
+        with mock.patch.object(runner, "measure", side_effect=KeyboardInterrupt):
+            status, said = self.run_()
+        self.assertEqual(status, 130)
+        self.assertIn("the same command goes on from there", said)
+
+    def testNothingToMeasureIsAWrongCommandLine(self):
+        status, said = self.run_("--quick", points=())
+        self.assertEqual(status, 2)
+        self.assertIn("in --quick: leave it out", said)
+
     def testAWrongCommandLine(self):
         for words in (["--section", "none"], ["--scene", "none"], ["--fast"]):
             with self.subTest(words), contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit) as left:

@@ -79,6 +79,6 @@ def machine(results):
     changed = bool(said(["git", "status", "--porcelain", "--untracked-files=no"]))
     renderers = sorted({r["renderer"] for r in results if r.get("renderer") and r["renderer"] != "CPU"})
     return {"processor": processor(), "cores": os.cpu_count() or 1, "renderer": ", ".join(renderers) or "CPU",
-            "date": max((r["at"] for r in results if r.get("at")), default="").replace("T", " ") + " UTC",
+            "date": max((r["at"].replace("T", " ") + " UTC" for r in results if r.get("at")), default="at an unknown time"),
             "commit": commit + (" with local changes" if changed else ""),
             "load": rounded(statistics.median(r.get("load", 0.0) for r in results) if results else 0.0)}
