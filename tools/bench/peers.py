@@ -36,18 +36,18 @@ BOTH = ("heckbert_herf", "courtyard")
 WAYS = (
     Way("08 masks", "08_accumulation", SHADOW, BOTH, "samples", (4, 16, 64, 256),
         ("--method", "mask", "--samples", "{value}", "--others-samples", "{value}"),
-        why="A light point costs one drawing of what is in between, for all pixels at once, and where all points "
-            "agree nothing is weighted. On many receivers it computes the whole texture of each, also what no pixel "
-            "shows, and a drawing for every receiver and light point."),
+        why="A light point costs one drawing of what is in between, for all pixels at once, and nothing is weighted "
+            "where all points agree. It makes the texture of every receiver, also what no pixel shows, and draws for "
+            "each receiver and light point: that is cheap for one plane, and dear for a thousand paving stones."),
     Way("08 exact", "08_accumulation", SHADOW, BOTH[:1], "points", (0,), ("--method", "exact"),
         why="Cone subtraction where few triangles are in the way: no samples, and the error that is left is that of "
             "blending between texels."),
     Way("00 shadow rays", "00_ray_traced_truth", SHADOW, BOTH, "samples", (4, 16, 64, 256), ("--samples", "{value}"),
         why="One camera ray a pixel, then shadow rays alone, and only 16 of them where these agree."),
     Way("Cycles", "blender", SHADOW, BOTH, "samples", (4, 16, 64, 256), ("--samples", "{value}"),
-        why="A path tracer: every sample is a camera ray, a hit, an evaluated material and then a shadow ray, "
-            "whatever is asked of it, everywhere as many. In return it knows no receivers, and a pixel costs the same"
-            " in any scene."),
+        why="A path tracer: every sample is a camera ray, a hit, an evaluated material and a shadow ray, and a lit "
+            "pixel gets as many as a penumbra. It needs nothing but its hierarchy, and knows nothing of receivers, "
+            "lights or planes that it could use."),
     Way("09 rays at vertices", "09_ambient_occlusion", AMBIENT, ("knot",), "samples", (16, 64, 256, 1024),
         ("--method", "vertices", "--samples", "{value}"),
         why="Neighbouring vertices use one another's rays where that costs no accuracy."),
@@ -56,8 +56,8 @@ WAYS = (
         why="The same rays in bundles, each vertex for itself."),
     Way("10 shadow maps", "10_accumulated_occlusion", AMBIENT, ("knot",), "samples", (64, 256, 1024, 4096),
         ("--method", "vertices", "--samples", "{value}"),
-        why="MeshLab's idea, but maps are drawn and looked up by the same GPU program, with back faces culled, a bias"
-            " that is derived, and directions spread evenly."),
+        why="The idea of MeshLab's filter, but a map is looked up where it was drawn, by OpenGL for all vertices at "
+            "once; back faces are culled, the bias is derived, and directions are spread evenly."),
     Way("Cycles bake", "blender", AMBIENT, ("knot",), "samples", (4, 16, 64, 256), ("--samples", "{value}"),
         why="Rays from every corner of every triangle, about six for each vertex, with the same random numbers, so "
             "that five of the six tell nothing new."),
