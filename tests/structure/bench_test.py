@@ -101,6 +101,13 @@ class MeasuringTest(BenchTest):
         self.assertFalse(found["memory_with_truth"])
         self.assertGreater(found["memory_mb"], 1.0)
 
+    def testMemoryIsThatOfAPassWithoutTheExactAnswer(self):
+        sample = {"wall_ms": 1.0, "wall_min_ms": 1.0, "cpu_ms": 1.0, "cpu_min_ms": 1.0}
+        compared, plain = {**sample, "compared": True, "memory_mb": 50.0}, {**sample, "compared": False, "memory_mb": 70.0}
+        both, one = results.merge(point(2), [compared, plain]), results.merge(point(2), [compared])
+        self.assertEqual((both["memory_mb"], both["memory_with_truth"]), (70.0, False))
+        self.assertEqual((one["memory_mb"], one["memory_with_truth"]), (50.0, True))
+
     def testARunGoesOnWhereItWas(self):
         with mock.patch.object(runner, "measure", side_effect=[runner.measure(point(2)), KeyboardInterrupt]):
             with self.assertRaises(KeyboardInterrupt):
@@ -125,6 +132,12 @@ class MeasuringTest(BenchTest):
         measuring = self.measure([point(13), point(2)])
         self.assertEqual(list(measuring.failures.values()), ["no luck with thirteen"])
         self.assertEqual([found["value"] for found in measuring.results()], [2])
+
+    def testAProgramThatHangsIsEnded(self):
+        self.write("build/release/bin/00_a", "#!/bin/sh\nexec sleep 60\n", executable=True)
+        with mock.patch.object(runner, "LIMIT_S", 0.2):
+            measuring = self.measure([point(2)])
+        self.assertIn("took longer than 0.2 s", str(list(measuring.failures.values())))
 
     def testProgressOnATerminalIsOneLineThatIsCleared(self):
         terminal = io.StringIO()

@@ -5,6 +5,8 @@
     wall_min_ms cpu_min_ms           least of all frames
     once_ms                          what is made once before the first frame, where a technique bakes; else 0
     setup_ms memory_mb               least of the passes; memory without the exact answer where a pass went without it
+                                     (a process that needs less than Python, some 30 MB, is shown with Python's: Linux counts
+                                     from before the program began)
     memory_with_truth                true where none did: the slowest points are run once
     passes runs                      how often a process was started; frames timed in all
     work                             counters of one frame

@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import tempfile
 import threading
@@ -57,6 +58,13 @@ def runChild(command, output=subprocess.DEVNULL, environment=None):
         return child.returncode, said.read().decode(errors="replace").strip(), usage
 
 
+def endOf(status):
+    """Of a program that said nothing."""
+    if status == -signal.SIGKILL:
+        return f"killed: it took longer than {LIMIT_S} s, or memory ran out"
+    return f"ended by signal {-status}" if status < 0 else f"no message; status {status}"
+
+
 def errorOf(entry):
     """Figures of a report's "error" or "error_area_light", or None."""
     if not entry:
@@ -74,7 +82,7 @@ def measure(point, runs=1, compare=True):
         report = Path(folder) / "report.json"
         status, said, usage = runChild(words(point, runs, compare, report))
         if status != 0 or not report.is_file():
-            raise PointError((said or f"no message; status {status}").splitlines()[-1])
+            raise PointError((said or endOf(status)).splitlines()[-1])
         read = json.loads(report.read_text())
     time = read["time"]
     sample = {"wall_ms": time["frame_ms"]["median"], "wall_min_ms": time["frame_ms"]["min"],

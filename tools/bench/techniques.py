@@ -108,7 +108,7 @@ TECHNIQUES = (
     Technique("08 mask", "08_accumulation", "area", "samples", (4, 16, 64, 256, 1024), (4, 16, 64),
               (*SOFT, "--method", "mask", "--samples", "{}", "--others-samples", "{}"),
               "32 light points a draw call, a bit each, on the texels that a shadow can reach", AREA_LIGHT),
-    Technique("08 accumulate", "08_accumulation", "area", "samples", (4, 16, 64, 256, 1024), (4, 16, 64),
+    Technique("08 accumulate", "08_accumulation", "area", "samples", (4, 16, 64, 256, 1024), (1, 4, 16),
               (*SOFT, "--method", "accumulate", "--samples", "{}", "--others-samples", "{}"),
               "clear, draw and add over every texel for every light point, as in the paper", AREA_LIGHT),
     Technique("08 shadow maps", "08_accumulation", "area", "samples", (4, 16, 64, 256), (4, 16, 64),
