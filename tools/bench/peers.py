@@ -176,7 +176,7 @@ def figure(quantity, scene, curves):
     drawn = [Curve(technique, [point[:2] for point in curveOf(results, "cpu_ms").points], dashed=isPeer(technique))
              for technique, results in curves.items()]
     return Figure(f"peers_{quantity.replace(' ', '_')}_{scene}", f"{scene}: {quantity}; dashed: other programs",
-                  "ms of CPU", "root mean square error", drawn, True)
+                  "ms of CPU", "root mean square error", drawn, True, scene, quantity)
 
 
 def page(results):
