@@ -134,7 +134,7 @@ def slopeLines(results, quantity):
     cells = [[technique, *(found.get(scene, "–") for scene in scenes)] for technique, found in rows.items()]
     if all(cell == "–" for row in cells for cell in row[1:]):
         return []
-    return ["How error falls with time: the slope of the line fitted to the curve. (Twice the work for random samples: −0.5.)", "",
+    return ["How error falls with time, as the slope of the line fitted to the curve (random samples: −0.5):", "",
             tables.markdown(["slope", *scenes], cells, ["---", *("---:" for _ in scenes)]), ""]
 
 
@@ -159,7 +159,7 @@ def quantityLines(results, quantity):
     lines += [levelTable(results, quantity.name), "", *whyLines(results, quantity.name), "",
               *slopeLines(results, quantity.name)]
     if quantity.name == "area" and (compared := areaTable(results)):
-        lines += ["What chapters 04 to 07 filter is not this light. Each at its best setting, against both:", "", compared, ""]
+        lines += ["What chapters 04 to 07 filter is not this light. At their best settings, against both:", "", compared, ""]
     return lines
 
 
@@ -185,8 +185,8 @@ At a glance: how often a technique is the cheapest of those that estimate the sa
 and how many times quicker it is then (medians) than the next one, and than the rays that a reader would otherwise cast.
 """
 EXPLANATION = """
-A technique is a curve: each setting of its quality is a point with a time and an error, and between two settings the curve is
-interpolated on logarithmic axes. Techniques are compared where they estimate the same quantity. *Error* is the root mean
+A technique is a curve: each setting of its quality is a point with a time and an error, and between two settings the curve
+is interpolated on logarithmic axes. Techniques are compared where they estimate the same quantity. *Error* is the root mean
 square over all pixels whose exact answer is defined; where the exact answer is itself many rays, its own noise is taken
 off, and errors that noise would drown are not compared. *ms* is the time of a frame in which the light moves, so that maps
 are rendered again; what is baked once for a scene (chapters 09 and 11 at vertices) is counted in full.
