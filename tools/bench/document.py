@@ -29,8 +29,8 @@ def head(machine, results):
     scenes = list(dict.fromkeys(f"`{result['scene']}`" for result in results))
     return ["# Run time against error", "",
             "Which technique is cheapest for a given error, why, and how its cost grows. Every figure on this page was "
-            f"measured by `./run bench`, which wrote it: {len(results)} points on {', '.join(scenes)}, {frames} timed frames, "
-            "their repeats interleaved so that noise of the machine hits all alike.", "",
+            f"measured by `./run bench`, which wrote it: {len(results)} points on {', '.join(scenes)}, {frames} "
+            "timed frames, their repeats interleaved so that noise of the machine hits all alike.", "",
             f"Measured on {machine['processor']} ({machine['cores']} cores), {machine['renderer']}, {machine['date']}, "
             f"commit {machine['commit']}; load average {machine['load']:.1f}, of which a program that is measured is up to "
             f"{machine['cores']}. Another machine has other times; their ratios are what `./run bench --check` "
