@@ -15,7 +15,7 @@ import png
 import reports
 from bench import bounds, browse, command, curves, document, error, estimates, files, raster, results, runner, sections
 from bench import store, svg, techniques, work
-from bench.figures import Curve, Figure
+from bench.figures import Curve, Figure, Line, Mark, layOut
 from bench.measuring import Measuring
 from bench.points import Point
 from bench.progress import Progress
@@ -269,8 +269,12 @@ class FigureTest(TreeTest):
         raster.render(self.FIGURE, self.root / "a.png")
         width, height, channels, pixels = png.read(self.root / "a.png")
         self.assertEqual((width, height, channels), (1720, 960, 3))
-        blue = bytes.fromhex("4477aa")
-        self.assertIn(blue, {pixels[i:i + 3] for i in range(0, len(pixels), 3)})
+        at = lambda x, y: pixels[3 * (int(2 * y) * width + int(2 * x)):][:3]  # noqa: E731
+        parts = layOut(self.FIGURE)
+        (x0, y0), (x1, y1), _ = next(part for part in parts if isinstance(part, Line) and len(part.points) == 3).points
+        self.assertEqual(at((x0 + x1) / 2, (y0 + y1) / 2), bytes.fromhex("4477aa"), "half way between two points")
+        marks = [part for part in parts if isinstance(part, Mark)]
+        self.assertEqual([at(mark.x, mark.y) == b"\xff\xff\xff" for mark in marks[:3]], [True, False, True])
 
 
 class BoundsTest(BenchTest):
