@@ -1,11 +1,16 @@
 #!/bin/sh
-# Installs the packages of tools/packages.txt that are missing: tools/install.sh run|test
+# Installs the packages of tools/packages.txt that are missing: tools/install.sh run|test|peers
 # Says nothing when there is nothing to do. Other distributions: installs nothing, and leaves the verdict to CMake.
 list="$(dirname "$0")/packages.txt"
-[ "$1" = test ] && groups="run test" || groups=run
+case "$1" in
+    test) groups="run test" ;;
+    *) groups="$1" ;;
+esac
 command -v dpkg-query >/dev/null || exit 0
 
-namesOf() { awk -v groups="$1" '!/^#/ && index(" " groups " ", " " $2 " ") {print $1}' "$list"; }
+namesOf() {
+    awk -v groups="$1" '!/^#/ {split($2, own, ","); for (i in own) if (index(" " groups " ", " " own[i] " ")) print $1}' "$list"
+}
 
 # One dpkg-query for all packages: one for each would cost a quarter of a second in every run.
 # shellcheck disable=SC2046  # names are words
@@ -31,6 +36,12 @@ apt() {
 }
 echo "installing $missing" >&2
 apt update || echo "apt-get update failed; trying with the package lists that are here" >&2
+if [ "$1" = peers ]; then  # one without the other will do, and the caller says which is left out
+    for package in $missing; do
+        apt install "$package" || true
+    done
+    exit 0
+fi
 # shellcheck disable=SC2086  # names are words
 if ! apt install $missing; then
     tail -n 5 "$log" >&2

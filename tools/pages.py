@@ -1,5 +1,6 @@
 """Refreshes or checks all pages: the body of docs/refresh."""
 import os
+import re
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -68,10 +69,17 @@ def checkMarker(marker, body):
         raise PageError(f"{marker.where}: `{marker.kind}: {marker.argument}` is stale: run docs/refresh")
 
 
+def ofBenchmark(root):
+    """Pictures of docs/benchmark.md: ./run bench writes both, and tests/structure/bench_test.py compares them."""
+    page = root / "docs" / "benchmark.md"
+    shown = re.findall(r"\]\((images/bench_\w+\.svg)\)", page.read_text()) if page.is_file() else []
+    return {f"docs/{path}" for path in shown}
+
+
 def leftOver(root, made):
     """What exists and no page shows."""
     shown = set().union(*(page.shownRegions for page in made))
-    pictures = set().union(*(page.pictureFiles for page in made))
+    pictures = set().union(*(page.pictureFiles for page in made)) | ofBenchmark(root)
     problems = [f"{path}: region {name} is shown by no page: show it, or remove its markers"
                 for path, name in regions.allRegions(root) if (path, name) not in shown]
     problems += [f"{path}: no page makes or shows this picture: remove it"

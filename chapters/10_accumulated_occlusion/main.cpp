@@ -45,14 +45,14 @@ class AccumulatedOcclusionChapter : public Chapter {
         // looks them all up, and adds what it finds to its sums.
         // Pass 4: the sums become means.
         const AmbientTextures textures = occlusion_->update(frame, options_, light_.light(frame.scene).sky);
-        if (save_ != "none" && frame.work.contains("directions_added"))
-            saveAmbient(frame.scene, occlusion_->vertexValues(frame.scene), save_);
 
         // Pass 5: the picture, as chapter 09 draws it.
         const PassScope scope(frame.passTimer, "picture");
         backdrop_->draw(frame, light_, frame.view == "color");
         draw(frame, textures);
         // [end:passes]
+        if (save_ != "none" && frame.work.contains("directions_added"))
+            saveAmbient(frame.scene, occlusion_->vertexValues(frame.scene), save_);
     }
 
     TruthImage truth(const TruthRequest& request) override {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "chapters/09_ambient_occlusion/bake_file.h"
 #include "chapters/09_ambient_occlusion/vertex_bake.h"
 #include "chapters/10_accumulated_occlusion/direction_batches.h"
 #include "common/scene/light.h"
@@ -18,6 +19,7 @@
 #include "tests/image/mutated_shaders.h"
 #include "tests/image/small_scenes.h"
 #include "tests/image/test_scenes.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace penumbra {
 namespace {
@@ -170,6 +172,27 @@ TEST(Chapter10Vertices, LookLikePixels) {
     }
     ASSERT_GT(count, 500);
     EXPECT_LE(sum / count, 0.02);
+}
+
+// A scene whose values were saved is drawn by chapter 09 from the file, and other methods have none to save.
+TEST(Chapter10Vertices, AreSavedAsTheyAre) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "baked.glb").string();
+    ChapterHarness harness = harnessOf(testScene("contact"), {{"save", file}, {"samples", "8"}});
+    EXPECT_THROW(harness.render("ambient", small), UsageError);
+    harness.set("method", "vertices");
+    harness.render("ambient", small);
+
+    AccumulatedOcclusion occlusion;
+    OcclusionOptions options;
+    options.method = "vertices";
+    options.samples = 8;
+    occlusion.update(harness.frame("ambient", small), options, Sky::uniform(dvec3(1.0)));
+    const std::vector<AmbientValue> made = occlusion.vertexValues(harness.scene);
+    const auto saved = loadedAmbient(loadGltf(file));
+    ASSERT_TRUE(saved.has_value());
+    ASSERT_EQ(saved->size(), made.size());
+    for (std::size_t i = 0; i < made.size(); ++i) ASSERT_EQ((*saved)[i].visibility, made[i].visibility) << i;
 }
 
 // --- soft edges --------------------------------------------------------------------------------------------

@@ -13,9 +13,9 @@ from temporary_tree import ROOT, TreeTest
 import build
 import png
 import reports
-from bench import bounds, browse, command, curves, document, error, estimates, files, raster, results, runner, sections, store
-from bench import svg, techniques, work
-from bench.figures import Curve, Figure
+from bench import bounds, browse, command, curves, document, error, estimates, files, raster, results, runner, sections
+from bench import store, svg, techniques, work
+from bench.figures import Curve, Figure, Line, Mark, layOut
 from bench.measuring import Measuring
 from bench.points import Point
 from bench.progress import Progress
@@ -35,7 +35,7 @@ report = {"time": {"setup_ms": 5.0, "frame_ms": ms, "frame_cpu_ms": ms, "passes_
           "work": {"shadow_rays": 10 * samples, "pixels_receiving": 10}, "renderer": "fake GL", "backend": "none"}
 if "--compare-truth" in flags:
     report["error"] = {"quantity": "visibility", "truth": "ray traced, 512 rays a pixel, standard error 1.0e-03",
-                       "against": "area light", "pixels": 9, "rmse": 0.5 / samples, "mean_abs": 0, "max_abs": 1, "bias": -0.25}
+                       "against": "area light", "pixels": 9, "rmse": 0.5 / samples, "mean_abs": 0, "max_abs": 1, "bias": 0}
     report["error_area_light"] = {"against": "area light", "rmse": 0.3, "max_abs": 1, "bias": 0.1}
 open(value("report"), "w").write(json.dumps(report))
 """
@@ -101,6 +101,13 @@ class MeasuringTest(BenchTest):
         self.assertFalse(found["memory_with_truth"])
         self.assertGreater(found["memory_mb"], 1.0)
 
+    def testMemoryIsThatOfAPassWithoutTheExactAnswer(self):
+        sample = {"wall_ms": 1.0, "wall_min_ms": 1.0, "cpu_ms": 1.0, "cpu_min_ms": 1.0}
+        compared, plain = {**sample, "compared": True, "memory_mb": 50.0}, {**sample, "compared": False, "memory_mb": 70.0}
+        both, one = results.merge(point(2), [compared, plain]), results.merge(point(2), [compared])
+        self.assertEqual((both["memory_mb"], both["memory_with_truth"]), (70.0, False))
+        self.assertEqual((one["memory_mb"], one["memory_with_truth"]), (50.0, True))
+
     def testARunGoesOnWhereItWas(self):
         with mock.patch.object(runner, "measure", side_effect=[runner.measure(point(2)), KeyboardInterrupt]):
             with self.assertRaises(KeyboardInterrupt):
@@ -125,6 +132,12 @@ class MeasuringTest(BenchTest):
         measuring = self.measure([point(13), point(2)])
         self.assertEqual(list(measuring.failures.values()), ["no luck with thirteen"])
         self.assertEqual([found["value"] for found in measuring.results()], [2])
+
+    def testAProgramThatHangsIsEnded(self):
+        self.write("build/release/bin/00_a", "#!/bin/sh\nexec sleep 60\n", executable=True)
+        with mock.patch.object(runner, "LIMIT_S", 0.2):
+            measuring = self.measure([point(2)])
+        self.assertIn("took longer than 0.2 s", str(list(measuring.failures.values())))
 
     def testProgressOnATerminalIsOneLineThatIsCleared(self):
         terminal = io.StringIO()
@@ -171,7 +184,7 @@ class PageTest(BenchTest):
 
     def levels(self, results_):
         return {cells[1]: cells for cells in
-                (error.levelRow(estimates.curvesOf(results_, "knot", "area"), "knot", "area", level) for level in error.LEVELS)}
+                (error.levelRow(estimates.curvesOf(results_, "knot", "area"), "knot", "area", at) for at in error.LEVELS)}
 
     def testNamesTheCheapestTheRunnerUpAndTheAlternative(self):
         rows = self.levels(self.RESULTS)
@@ -190,7 +203,8 @@ class PageTest(BenchTest):
         self.assertAlmostEqual(estimates.errorOf(figures, 2.0), 0.02)
 
     def testAFilteredShadowCountsAgainstTheAreaLight(self):
-        filtered = {**result("07 min-max", 4.0, 0.01, quantity="disk"), "area_light": {"rmse": 0.2, "bias": 0.1, "max_abs": 1}}
+        light = {"rmse": 0.2, "bias": 0.1, "max_abs": 1}
+        filtered = {**result("07 min-max", 4.0, 0.01, quantity="disk"), "area_light": light}
         self.assertEqual(estimates.curvesOf([filtered], "knot", "area")[0].points[0][1], 0.2)
         self.assertEqual(estimates.curvesOf([filtered], "knot", "disk")[0].points[0][1], 0.01)
         self.assertIn("0.200", error.areaTable([filtered]))
@@ -207,7 +221,8 @@ class PageTest(BenchTest):
         self.assertEqual(shown, ["images/bench_error_area_knot.svg"])
         self.assertTrue((self.root / "docs" / shown[0]).is_file())
         self.assertFalse((self.root / "docs/images/bench_old.svg").exists(), "a picture that no page shows")
-        for path, old, new in (("docs/benchmark.md", "6.3", "9.9"), ("docs/benchmark.json", '"wall_ms":5.0', '"wall_ms":4.0'),
+        for path, old, new in (("docs/benchmark.md", "6.3", "9.9"),
+                               ("docs/benchmark.json", '"wall_ms":5.0', '"wall_ms":4.0'),
                                (f"docs/{shown[0]}", "polyline", "line")):
             with self.subTest(path):
                 text = self.read(path)
@@ -254,8 +269,12 @@ class FigureTest(TreeTest):
         raster.render(self.FIGURE, self.root / "a.png")
         width, height, channels, pixels = png.read(self.root / "a.png")
         self.assertEqual((width, height, channels), (1720, 960, 3))
-        blue = bytes.fromhex("4477aa")
-        self.assertIn(blue, {pixels[i:i + 3] for i in range(0, len(pixels), 3)})
+        at = lambda x, y: pixels[3 * (int(2 * y) * width + int(2 * x)):][:3]  # noqa: E731
+        parts = layOut(self.FIGURE)
+        (x0, y0), (x1, y1), _ = next(part for part in parts if isinstance(part, Line) and len(part.points) == 3).points
+        self.assertEqual(at((x0 + x1) / 2, (y0 + y1) / 2), bytes.fromhex("4477aa"), "half way between two points")
+        marks = [part for part in parts if isinstance(part, Mark)]
+        self.assertEqual([at(mark.x, mark.y) == b"\xff\xff\xff" for mark in marks[:3]], [True, False, True])
 
 
 class BoundsTest(BenchTest):
@@ -267,7 +286,8 @@ class BoundsTest(BenchTest):
             return bounds.check(), out.getvalue()
 
     def entry(self, **more):
-        return {"name": "n", "what": "w", "issue": 3, "program": "a_bench 7", "find": r"^a (?P<over>\S+) (?P<under>\S+)$", **more}
+        return {"name": "n", "what": "w", "issue": 3, "program": "a_bench 7", "find": r"^a (?P<over>\S+) (?P<under>\S+)$",
+                **more}
 
     def testTheWorstOfSeveralLinesCounts(self):
         said = "a 6 2\nb 1 1\na 10 2"
@@ -334,6 +354,17 @@ class CommandTest(BenchTest):
         self.assertEqual(status, 1)
         self.assertIn("failed: error/knot/area/00 rays/samples=13: no luck with thirteen", said)
         self.assertTrue((self.root / "out/benchmark.html").is_file())
+
+    def testAnInterruptSaysThatTheSameCommandGoesOn(self):
+        with mock.patch.object(runner, "measure", side_effect=KeyboardInterrupt):
+            status, said = self.run_()
+        self.assertEqual(status, 130)
+        self.assertIn("the same command goes on from there", said)
+
+    def testNothingToMeasureIsAWrongCommandLine(self):
+        status, said = self.run_("--quick", points=())
+        self.assertEqual(status, 2)
+        self.assertIn("in --quick: leave it out", said)
 
     def testAWrongCommandLine(self):
         for words in (["--section", "none"], ["--scene", "none"], ["--fast"]):

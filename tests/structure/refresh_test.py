@@ -177,6 +177,13 @@ class RefreshTest(TreeTest):
         (self.root / "docs/images/a.png").rename(self.root / "docs/images/b.png")
         self.expectStale("no picture images/a.png", "b.png: no page makes or shows this picture")
 
+    def testLeavesThePicturesOfTheBenchmarkToIt(self):
+        self.refreshed()
+        self.write("docs/images/bench_a.svg", "<svg/>")
+        self.expectStale("bench_a.svg: no page makes or shows this picture")
+        self.write("docs/benchmark.md", "![a plot](images/bench_a.svg)\n")
+        self.assertEqual(self.run_(check=True), (0, ""))
+
     def testSeesChangedFiguresButNotTimes(self):
         self.refreshed()
         self.state(grey=100, rmse=0.125, ms=900)

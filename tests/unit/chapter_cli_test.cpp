@@ -83,6 +83,21 @@ std::vector<std::string> chapterNames() {
     return names;
 }
 
+/// What a benchmark counts as the price of a bake: no timed frame makes it again.
+TEST(ChapterWithABake, ReportsThePassThatOnlyTheFirstFrameMakes) {
+    const TemporaryFolder folder;
+    writeFile(folder / "triangle.gltf", triangleFile);
+    const ProgramResult result =
+        runProgram({.program = programFolder() / "09_ambient_occlusion",
+                    .arguments = {"--scene", "triangle.gltf", "--method", "vertices", "--size", "16x16",
+                                  "--runs", "2", "--pass-times", "--report", "r.json", "--quiet"},
+                    .folder = folder.path()});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Json passes = Json::parse(bytesOf(folder / "r.json"))["time"]["passes_ms"];
+    EXPECT_EQ(passes["bake"]["runs"], 1);
+    EXPECT_EQ(passes["picture"]["runs"], 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Chapters, RealChapter, testing::ValuesIn(chapterNames()),
                          [](const auto& chapter) { return "C" + chapter.param; });
 

@@ -7,6 +7,7 @@ The division takes away noise that Cycles' picture has, and its time is not coun
 """
 import array
 import math
+import re
 import sys
 import time
 from pathlib import Path
@@ -73,8 +74,16 @@ def pixels(path):
     return values[0::image.channels]
 
 
+def samplesOf(path):
+    """What Cycles wrote into the head of its picture."""
+    found = re.search(rb"cycles\.\w+\.samples\x00string\x00.{4}(\d+)", Path(path).read_bytes()[:65536], re.DOTALL)
+    return int(found[1]) if found else None
+
+
 def errors(work, scene, surfaces):
     """Cycles', and that of our own picture, which must be what our own report says."""
+    if samplesOf(work["picture"]) not in (None, work["samples"]):
+        sys.exit(f"Cycles took {samplesOf(work['picture'])} samples, and not the {work['samples']} that it was asked for")
     lit = pixels(work["picture"])
     surfaces.visible_shadow = False
     scene.render.filepath = work["picture"] + ".unshadowed.exr"
@@ -82,7 +91,8 @@ def errors(work, scene, surfaces):
     visible = [a / b if b > 0 else 0.0 for a, b in zip(lit, pixels(scene.render.filepath))]
     truth, ours = pixels(work["truth"]), pixels(work["ours"])
     defined = [i for i, value in enumerate(truth) if math.isfinite(value)]
-    return {"error": figures([visible[i] - truth[i] for i in defined]), "ours": figures([ours[i] - truth[i] for i in defined])}
+    return {"error": figures([visible[i] - truth[i] for i in defined]),
+            "ours": figures([ours[i] - truth[i] for i in defined])}
 
 
 def main(work):
@@ -91,12 +101,12 @@ def main(work):
     scene.cycles.samples = 1
     bpy.ops.render.render(write_still=False)
     scene.cycles.samples = work["samples"]
+    scene.update_tag()  # or the hierarchy is kept, and the number of samples too
     built, wall = peer.cpu(), time.perf_counter()
     bpy.ops.render.render(write_still=True)
     phase = {"start_cpu_s": started, "build_cpu_s": built - started, "cpu_s": peer.cpu() - built,
              "wall_s": time.perf_counter() - wall}
-    error = errors(work, scene, surfaces) if work["compare"] else {}
-    peer.answer(work["answer"], phase=phase, **error)
+    peer.answer(work["answer"], phase=phase, **errors(work, scene, surfaces))
 
 
 main(peer.job())

@@ -104,7 +104,8 @@ def evaluate(bounds, progress):
 def row(bound, ratio, problem):
     asked = f">= {bound['at_least']:g}" if "at_least" in bound else f"<= {bound['at_most']:g}"
     verdict = "not measured" if ratio is None else "holds" if holds(bound, ratio) else "FALLS SHORT"
-    return [bound["name"], "–" if ratio is None else f"{ratio:.3g}", asked, verdict, str(bound["issue"]), problem or bound["what"]]
+    measured = "–" if ratio is None else f"{ratio:.3g}"
+    return [bound["name"], measured, asked, verdict, str(bound["issue"]), problem or bound["what"]]
 
 
 def check():

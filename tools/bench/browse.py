@@ -13,7 +13,8 @@ def row(result):
     area = result["area_light"] or {}
     return {**{key: result.get(key) for key in SHOWN}, "rmse": error.get("rmse"), "max_abs": error.get("max_abs"),
             "bias": error.get("bias"), "area_rmse": area.get("rmse"), "work": result["work"],
-            "command": " ".join(["./run", result["chapter"][:2], "--headless", "--scene", result["scene"], *result["flags"]])}
+            "command": " ".join(["./run", result["chapter"][:2], "--headless", "--scene", result["scene"],
+                                 *result["flags"]])}
 
 
 def page(machine, results, figures, drawn):

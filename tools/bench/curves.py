@@ -2,7 +2,7 @@
 import math
 from dataclasses import dataclass, field
 
-EXACT = 1e-6  # an error below is rounding: such a point is exact, and stands on no logarithmic axis
+EXACT = 3e-5  # an error below is the rounding of float pictures: such a point is exact, and stands on no logarithmic axis
 
 
 @dataclass

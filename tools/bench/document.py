@@ -28,12 +28,13 @@ def head(machine, results):
     frames = sum(result.get("runs", 0) for result in results)
     scenes = list(dict.fromkeys(f"`{r['scene']}`" for r in results if "/" not in r["scene"]))  # not what a section makes
     return ["# Run time against error", "",
-            "Which technique is cheapest for a given error, why, and how its cost grows. Every figure on this page was measured "
-            f"by `./run bench`, which wrote it: {len(results)} points on {', '.join(scenes)}, {frames} timed frames, their "
-            "repeats interleaved so that noise of the machine hits all alike.", "",
-            f"Measured on {machine['processor']} ({machine['cores']} cores), {machine['renderer']}, {machine['date']}, commit "
-            f"{machine['commit']}, load {machine['load']:g}. Another machine has other times; their ratios are what "
-            "`./run bench --check` compares with bounds."]
+            "Which technique is cheapest for a given error, why, and how its cost grows. Every figure on this page was "
+            f"measured by `./run bench`, which wrote it: {len(results)} points on {', '.join(scenes)}, {frames} "
+            "timed frames, their repeats interleaved so that noise of the machine hits all alike.", "",
+            f"Measured on {machine['processor']} ({machine['cores']} cores), {machine['renderer']}, {machine['date']}, "
+            f"commit {machine['commit']}; load average {machine['load']:.1f}, of which a program that is measured is up to "
+            f"{machine['cores']}. Another machine has other times; their ratios are what `./run bench --check` "
+            "compares with bounds."]
 
 
 def read(text):

@@ -1,4 +1,6 @@
 """Section `error`: run time against error, every technique over its own quality axis, on several scenes."""
+import statistics
+
 import tables
 from bench import curves, estimates, techniques, work
 from bench.figures import Curve, Figure
@@ -49,7 +51,7 @@ def levelRow(every, scene, quantity, level):
         return [scene, f"{level:g}", f"none; {technique} comes to {error:.2g}", milliseconds(ms)] + 4 * ["–"]
     if level < estimates.limitOf(every, quantity):
         return [scene, f"{level:g}", "cannot be told: the exact answer's own noise is as large"] + 5 * ["–"]
-    first, cells = reached[0], ["–", "–"]
+    first, cells = reached[0], ["no other", "–"]
     if len(reached) > 1:
         cells = [reached[1][1], f"{reached[1][0] / first[0]:.1f}"]
     other = next((ms for ms, technique, _ in reached if technique == techniques.quantity(quantity).alternative), None)
@@ -58,13 +60,41 @@ def levelRow(every, scene, quantity, level):
 
 
 def levelTable(results, quantity):
-    alternative = techniques.quantity(quantity).alternative or "rays"
+    alternative = techniques.quantity(quantity).alternative
     rows = []
     for scene in scenesOf(results, quantity):
         every = estimates.curvesOf(results, scene, quantity)
         rows += [levelRow(every, scene, quantity, level) for level in LEVELS]
     headings = ["scene", "error", "cheapest", "ms", "runner-up", "times the ms", f"{alternative}, ms", "times the ms"]
-    return tables.markdown(headings, rows, ["---", "---:", "---", "---:", "---", "---:", "---:", "---:"])
+    shown = len(headings) if alternative else len(headings) - 2
+    alignment = ["---", "---:", "---", "---:", "---", "---:", "---:", "---:"]
+    return tables.markdown(headings[:shown], [row[:shown] for row in rows], alignment[:shown])
+
+
+def glanceRows(results, quantity):
+    """How often each technique is cheapest, and by what factors: medians over scenes and errors."""
+    won = {}
+    for scene in scenesOf(results, quantity.name):
+        every = estimates.curvesOf(results, scene, quantity.name)
+        for level in LEVELS:
+            reached = estimates.reaching(every, level)
+            if reached and level >= estimates.limitOf(every, quantity.name):
+                won.setdefault(reached[0][1], []).append(reached)
+    cases, rows = sum(map(len, won.values())), []
+    for technique, found in sorted(won.items(), key=lambda entry: -len(entry[1])):
+        second = [reached[1][0] / reached[0][0] for reached in found if len(reached) > 1]
+        other = [entry[0] / reached[0][0] for reached in found for entry in reached
+                 if entry[1] == quantity.alternative != technique]
+        factor = lambda values: f"{statistics.median(values):.1f}" if values else "–"  # noqa: E731
+        rows.append([quantity.title, technique, f"{len(found)} of {cases}", factor(second), factor(other)])
+    return rows
+
+
+def glance(results):
+    """The first answer of the page, in one table."""
+    rows = [row for quantity in techniques.QUANTITIES for row in glanceRows(results, quantity)]
+    headings = ["quantity", "cheapest", "cases", "quicker than the runner-up", "quicker than the rays"]
+    return tables.markdown(headings, rows, ["---", "---", "---:", "---:", "---:"])
 
 
 def winners(results, quantity):
@@ -82,9 +112,8 @@ def winners(results, quantity):
 def whyLines(results, quantity):
     """One sentence for each technique, from the table, and of those that win what their counters say."""
     won, lines = winners(results, quantity), []
-    present = dict.fromkeys(c.technique for scene in scenesOf(results, quantity)
-                            for c in estimates.curvesOf(results, scene, quantity))
-    for technique in present:
+    own = [result["technique"] for result in results if result["quantity"] == quantity]
+    for technique in dict.fromkeys([*own, *won]):
         line = f"- **{technique}**: {techniques.whyOf(technique, quantity)}."
         if technique in won:
             level, result = won[technique]
@@ -95,7 +124,7 @@ def whyLines(results, quantity):
     return lines
 
 
-def slopeTable(results, quantity):
+def slopeLines(results, quantity):
     scenes = scenesOf(results, quantity)
     rows = {}
     for scene in scenes:
@@ -103,7 +132,10 @@ def slopeTable(results, quantity):
             steep = curves.slope(curve.drawn())
             rows.setdefault(curve.technique, {})[scene] = "–" if steep is None else f"{steep:+.2f}"
     cells = [[technique, *(found.get(scene, "–") for scene in scenes)] for technique, found in rows.items()]
-    return tables.markdown(["slope", *scenes], cells, ["---", *("---:" for _ in scenes)])
+    if all(cell == "–" for row in cells for cell in row[1:]):
+        return []
+    return ["How error falls with time, as the slope of the line fitted to the curve (random samples: −0.5):", "",
+            tables.markdown(["slope", *scenes], cells, ["---", *("---:" for _ in scenes)]), ""]
 
 
 def areaTable(results):
@@ -125,16 +157,15 @@ def quantityLines(results, quantity):
     if quantity.without:
         lines += [f"Without an alternative: {quantity.without}.", ""]
     lines += [levelTable(results, quantity.name), "", *whyLines(results, quantity.name), "",
-              "How error falls with time (slope of the line fitted to the curve; −0.5 is that of random samples):", "",
-              slopeTable(results, quantity.name), ""]
+              *slopeLines(results, quantity.name)]
     if quantity.name == "area" and (compared := areaTable(results)):
-        lines += ["What chapters 04 to 07 filter is not this light. Each at its best setting, against both:", "", compared, ""]
+        lines += ["What chapters 04 to 07 filter is not this light. At their best settings, against both:", "", compared, ""]
     return lines
 
 
 def page(results):
     good = [result for result in results if result.get("error")]
-    lines, figures = [INTRODUCTION.strip(), ""], []
+    lines, figures = [INTRODUCTION.strip(), "", glance(good), "", EXPLANATION.strip(), ""], []
     for quantity in techniques.QUANTITIES:
         scenes = scenesOf(good, quantity.name)
         if not scenes:
@@ -150,8 +181,12 @@ def page(results):
 INTRODUCTION = """
 ## Which technique is cheapest, and why
 
-A technique is a curve: each setting of its quality is a point with a time and an error, and between two settings the curve is
-interpolated on logarithmic axes. Techniques are compared where they estimate the same quantity. *Error* is the root mean
+At a glance: how often a technique is the cheapest of those that estimate the same, over scenes and errors from 0.1 to 0.003,
+and how many times quicker it is then (medians) than the next one, and than the rays that a reader would otherwise cast.
+"""
+EXPLANATION = """
+A technique is a curve: each setting of its quality is a point with a time and an error, and between two settings the curve
+is interpolated on logarithmic axes. Techniques are compared where they estimate the same quantity. *Error* is the root mean
 square over all pixels whose exact answer is defined; where the exact answer is itself many rays, its own noise is taken
 off, and errors that noise would drown are not compared. *ms* is the time of a frame in which the light moves, so that maps
 are rendered again; what is baked once for a scene (chapters 09 and 11 at vertices) is counted in full.

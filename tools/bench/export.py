@@ -237,10 +237,10 @@ def readPly(path):
     names = re.findall(r"property float (\w+)\n", block)
     if not names or len(names) != block.count("\n") or "binary_little_endian" not in head:
         raise ExportError(f"{path}: no binary PLY file with vertices of floats")
-    floats = array.array("f")
-    floats.frombytes(data[end + 11:end + 11 + 4 * len(names) * int(count)])
-    if len(floats) != len(names) * int(count):
+    body = data[end + 11:end + 11 + 4 * len(names) * int(count)]
+    if len(body) < 4 * len(names) * int(count):
         raise ExportError(f"{path}: ends before its last vertex")
+    floats = array.array("f", body)
     column = {name: floats[i::len(names)] for i, name in enumerate(names)}
 
     def woven(wanted):

@@ -1,5 +1,7 @@
 """All points, pass after pass: noise of the machine hits all alike, since the repeats of one point lie minutes apart."""
+import os
 import time
+from datetime import datetime, timezone
 
 from bench import results, runner, sections, store
 from bench.runner import PointError
@@ -59,7 +61,7 @@ class Measuring:
             self.failures[point] = str(problem)
             self.progress.say(f"{point.id}: {problem}")
             return
-        sample["seconds"] = time.monotonic() - started
+        sample.update(seconds=time.monotonic() - started, load=os.getloadavg()[0], at=datetime.now(timezone.utc).isoformat())
         self.spent, self.made = self.spent + sample["seconds"], self.made + 1
         self.samples[point].append(sample)
         store.append(point, self.keys[point], sample)

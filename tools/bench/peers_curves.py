@@ -1,6 +1,8 @@
-"""Errors as figures, and two curves of time against error compared where both have the same error."""
+"""Errors as figures, and two curves compared where both have the same error."""
 import math
 from dataclasses import dataclass
+
+from bench import curves
 
 
 @dataclass(frozen=True)
@@ -23,34 +25,17 @@ def figures(errors):
             "mean_abs": sum(map(abs, errors)) / count, "max_abs": max(map(abs, errors))}
 
 
-def front(curve):
-    """Of (time, error) pairs those that nothing else beats in both, cheapest first."""
-    best, kept = math.inf, []
-    for time, error in sorted(curve):
-        if error < best:
-            best = error
-            kept.append((time, error))
-    return kept
-
-
-def timeAt(curve, error):
-    """Straight lines between neighbours of the front, in logarithms; None where the curve does not come down to `error`."""
-    points = front(curve)
-    if not points or points[-1][1] > error:
-        return None
-    if points[0][1] <= error:
-        return points[0][0]
-    for (t0, e0), (t1, e1) in zip(points, points[1:]):
-        if e1 <= error:
-            along = math.log(e0 / error) / math.log(e0 / e1) if e1 > 0 else 1.0
-            return t0 * (t1 / t0) ** along
-    return None
+def curveOf(results, time):
+    """`time`: which of a result's times, "cpu_ms" or "process_cpu_ms"."""
+    ordered = sorted(results, key=lambda result: result["value"])
+    return curves.Curve(ordered[0]["technique"] if ordered else "", [(r[time], r["error"]["rmse"], r) for r in ordered])
 
 
 def atEqualError(ours, theirs):
-    """AtEqualError of two lists of (time, error), None where one is empty."""
-    if not ours or not theirs:
+    """AtEqualError of two curves, None where one is empty."""
+    if not ours.points or not theirs.points:
         return None
-    error = max(front(ours)[-1][1], front(theirs)[-1][1])
-    bound = next((name for name, curve in (("ours", ours), ("theirs", theirs)) if front(curve)[0][1] < error), "")
-    return AtEqualError(error, timeAt(ours, error), timeAt(theirs, error), bound)
+    error = max(min(point[1] for point in curve.points) for curve in (ours, theirs))
+    bound = next((name for name, curve in (("ours", ours), ("theirs", theirs))
+                  if min(curve.points, key=lambda point: point[:2])[1] < error), "")
+    return AtEqualError(error, curves.timeTo(ours, error)[0], curves.timeTo(theirs, error)[0], bound)

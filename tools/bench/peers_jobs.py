@@ -5,8 +5,6 @@ import json
 import math
 import os
 import subprocess
-import tempfile
-import threading
 import time
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,7 +13,7 @@ from pathlib import Path
 import build
 import reports
 from bench import export
-from bench.runner import LIMIT_S, PointError
+from bench.runner import PointError, runChild
 
 SIZE = 512
 THREADS = 2
@@ -44,9 +42,10 @@ class Used:
 
 
 def recipe():
-    """Of the code that prepares and asks: what it makes is not used again when it has changed."""
+    """Of the code that exports and asks: what it measured counts no more when it has changed."""
     here = Path(__file__).resolve().parent
-    files = sorted(here.glob("peers*.py")) + sorted(here.glob("blender_*.py")) + [here / "export.py"]
+    files = [*sorted(here.glob("blender_*.py")), *(here / f"peers_{name}.py" for name in ("cycles", "jobs", "meshlab")),
+             here / "export.py"]
     return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:8]
 
 
@@ -60,34 +59,24 @@ def program(chapter):
     return build.folder("release") / "bin" / chapter
 
 
+def reason(said):
+    """The one line of a failed process that says why: programs go on talking after it."""
+    lines = [line.strip() for line in said.splitlines() if line.strip() and "script failed" not in line]
+    return next((line for line in reversed(lines) if "error" in line.lower()), lines[-1] if lines else "no message")
+
+
 def run(command, environment=None):
-    """Used. Throws PointError with the last thing that the process said."""
-    with tempfile.TemporaryFile() as said:
-        started = time.perf_counter()
-        child = subprocess.Popen([str(word) for word in command], cwd=build.ROOT, stdin=subprocess.DEVNULL, stdout=said,
-                                 stderr=subprocess.STDOUT, env={**os.environ, **(environment or {})})
-        timer = threading.Timer(LIMIT_S, child.kill)
-        timer.start()
-        try:
-            _, status, usage = os.wait4(child.pid, 0)
-            child.returncode = os.waitstatus_to_exitcode(status)
-        except BaseException:
-            child.kill()
-            child.wait()
-            raise
-        finally:
-            timer.cancel()
-        wall = time.perf_counter() - started
-        said.seek(0)
-        text = said.read().decode(errors="replace")
-    if child.returncode != 0:
-        raise PointError(f"{command[0]}: status {child.returncode}: {(text.split(chr(10) * 2)[0] or 'no message').strip()[-300:]}")
-    return Used(usage.ru_utime + usage.ru_stime, wall, text)
+    """Used. Throws PointError with the reason that the process gave."""
+    started = time.perf_counter()
+    status, said, usage = runChild([str(word) for word in command], subprocess.STDOUT, {**os.environ, **(environment or {})})
+    if status != 0:
+        raise PointError(f"{Path(command[0]).name} ended with status {status}: {reason(said)}")
+    return Used(usage.ru_utime + usage.ru_stime, time.perf_counter() - started, said)
 
 
 def made(name, suffix, needs, make):
     """A file that is made once: `make` writes it beside its place, and it is moved there whole. `needs`: files and words."""
-    key = hashlib.sha256(recipe().encode())
+    key = hashlib.sha256(Path(export.__file__).read_bytes() + Path(__file__).read_bytes())
     for need in needs:
         key.update((reports.fileDigest(need) if isinstance(need, Path) else str(need)).encode())
     path = folder() / f"{name}.{key.hexdigest()[:12]}{suffix}"
@@ -120,7 +109,8 @@ def shadowTruth(view):
     def draw(name, *flags):
         return made(f"{view.scene}_{name}", ".exr", [chapter, asset(view.scene)], lambda new: run(
             [chapter, "--scene", view.scene, *view.flags(), "--headless", "--quiet", "--output", new, *flags]))
-    return draw("truth", "--view", "truth", "--compare-truth"), draw("ours", "--view", "visibility", "--samples", "64")
+    return draw("truth", "--view", "truth", "--compare-truth"), draw(
+        "ours", "--view", "visibility", "--method", "mask", "--samples", "64", "--others-samples", "64")
 
 
 def vertexValues(glb):
@@ -146,11 +136,17 @@ def vertexTruth(scene):
     return mesh, math.sqrt(spread / (len(mesh.values) * (count - 1) * count)), files[0]
 
 
-def sample(cpu_s, wall_s, process: Used, error, **further):
-    """As bench.runner.measure gives it; process_*: of the whole process, from its start to its end."""
-    return {"wall_ms": 1e3 * wall_s, "wall_min_ms": 1e3 * wall_s, "cpu_ms": 1e3 * cpu_s, "cpu_min_ms": 1e3 * cpu_s, "runs": 1,
-            "process_cpu_ms": 1e3 * process.cpu_s, "process_wall_ms": 1e3 * process.wall_s,
-            "compared": error is not None, "error": error, **further}
+def sample(cpu_s, wall_s, processCpu_s, error, **further):
+    """As bench.runner.measure gives it; process_cpu_ms: of the whole process, from its start to its end."""
+    return {"wall_ms": 1e3 * wall_s, "wall_min_ms": 1e3 * wall_s, "cpu_ms": 1e3 * cpu_s, "cpu_min_ms": 1e3 * cpu_s,
+            "runs": 1, "process_cpu_ms": 1e3 * processCpu_s, "setup_ms": 0.0, "compared": True, "error": error,
+            "renderer": "CPU", **further}
+
+
+def withNoise(sample, noise):
+    """Of an exact answer that is rays itself."""
+    sample["error"]["standard_error"] = noise
+    return sample
 
 
 def readJson(path):

@@ -1,8 +1,8 @@
 """MeshLab's filter "Ambient Occlusion": N depth maps of the mesh, drawn by OpenGL, looked up at every vertex.
 
-It needs a display, so it gets one in memory (Xvfb), whose time counts too. A vertex has the mean over all N directions of the
-sphere of max(0, n.l) where it is seen: a quarter of the ambient visibility, since half of them are below the horizon, and
-the mean cosine of the others is a half.
+It needs a display, so it gets one in memory (Xvfb), whose time counts too. A vertex has the mean over all N directions of
+the sphere of max(0, n.l) where it is seen: a quarter of the ambient visibility, since half of them are below the horizon,
+and the mean cosine of the others is a half.
 """
 import os
 import re
@@ -41,8 +41,8 @@ class Display:
 
     def __enter__(self):
         read, write = os.pipe()
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
-                                       pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        words = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"]
+        self.server = subprocess.Popen(words, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as answer:
             number = answer.readline().strip()  # ends at once if the server does
@@ -56,6 +56,12 @@ class Display:
         _, status, usage = os.wait4(self.server.pid, 0)
         self.server.returncode = os.waitstatus_to_exitcode(status)
         self.cpu_s = usage.ru_utime + usage.ru_stime
+
+
+def version():
+    """meshlabserver has no flag for it."""
+    said = subprocess.run(["dpkg-query", "-W", "-f=${Version}", "meshlab"], capture_output=True, text=True).stdout
+    return f"MeshLab {said.partition('+')[0] or 'of unknown version'}"
 
 
 def meshlab(mesh, script, output):
@@ -74,7 +80,7 @@ def meshlab(mesh, script, output):
 
 def bake(scene, views, size):
     """A sample: the filter is the whole process without what it takes to read and write the same mesh, without a filter."""
-    truth, _, source = jobs.vertexTruth(scene)
+    truth, noise, source = jobs.vertexTruth(scene)
     mesh = Path(jobs.ply(f"{scene}_vertices", truth, source)["file"])
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "baked.ply"
@@ -87,4 +93,5 @@ def bake(scene, views, size):
     if list(baked.positions) != list(truth.positions):
         raise PointError(f"MeshLab wrote {baked.vertices} vertices, and not the {truth.vertices} that it was given")
     errors = [QUARTER * value - exact for value, exact in zip(baked.values, truth.values)]
-    return jobs.sample(max(used.cpu_s - idle.cpu_s, 1e-3), float(took[1]), used, figures(errors), renderer="")
+    sample = jobs.sample(max(used.cpu_s - idle.cpu_s, 1e-3), float(took[1]), used.cpu_s, figures(errors), version=version())
+    return jobs.withNoise(sample, noise)

@@ -54,13 +54,15 @@ class Canvas:
             at = 3 * (y * self.width + left)
             self.pixels[at:at + 3 * (right - left)] = bytes(colour) * (right - left)
 
-    def fill(self, inside, box, colour):
-        """`inside(x, y)` at 4 x 4 places of each pixel of the box (left, top, right, bottom)."""
-        left, top, right, bottom = (math.floor(v) for v in box)
-        places = [(i + 0.5) / 4 for i in range(4)]
-        for y in range(top, bottom + 2):
-            for x in range(left, right + 2):
-                self.blend(x, y, colour, sum(inside(x + a, y + b) for a in places for b in places) / 16.0)
+    def fill(self, outline, colour):
+        """A convex polygon, pixels whole or not at all: its outline is drawn over the steps."""
+        sides = list(zip(outline, outline[1:] + outline[:1]))
+        xs, ys = [math.floor(x) for x, _ in outline], [math.floor(y) for _, y in outline]
+        for y in range(min(ys), max(ys) + 1):
+            for x in range(min(xs), max(xs) + 1):
+                turns = [(bx - ax) * (y + 0.5 - ay) - (by - ay) * (x + 0.5 - ax) for (ax, ay), (bx, by) in sides]
+                if min(turns) >= 0.0 or max(turns) <= 0.0:
+                    self.blend(x, y, colour, 1.0)
 
 
 def rgb(colour):
@@ -90,13 +92,7 @@ def drawLine(canvas, line):
 
 def drawMark(canvas, mark):
     outline = [(SCALE * x, SCALE * y) for x, y in corners(mark)]
-    box = (min(x for x, _ in outline), min(y for _, y in outline), max(x for x, _ in outline), max(y for _, y in outline))
-
-    def inside(x, y):
-        sides = [(bx - ax) * (y - ay) - (by - ay) * (x - ax)
-                 for (ax, ay), (bx, by) in zip(outline, outline[1:] + outline[:1])]
-        return all(side >= 0 for side in sides) or all(side <= 0 for side in sides)
-    canvas.fill(inside, box, rgb(mark.colour) if mark.filled else (255, 255, 255))
+    canvas.fill(outline, rgb(mark.colour) if mark.filled else (255, 255, 255))
     for a, b in zip(outline, outline[1:] + outline[:1]):
         canvas.segment(a, b, rgb(mark.colour), SCALE * 1.5)
 

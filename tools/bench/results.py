@@ -5,9 +5,12 @@
     wall_min_ms cpu_min_ms           least of all frames
     once_ms                          what is made once before the first frame, where a technique bakes; else 0
     setup_ms memory_mb               least of the passes; memory without the exact answer where a pass went without it
+                                     (a process that needs less than Python, some 30 MB, is shown with Python's: Linux counts
+                                     from before the program began)
     memory_with_truth                true where none did: the slowest points are run once
     passes runs                      how often a process was started; frames timed in all
     work                             counters of one frame
+    at load                          when (UTC) it was measured last, and how busy the machine was: waiting threads
     error area_light                 {quantity truth against pixels rmse max_abs bias standard_error} or None
 
 and what a section's own `measure` adds. Figures are rounded to four digits: more is noise, and the page must come out the
@@ -18,13 +21,13 @@ import platform
 import re
 import statistics
 import subprocess
-from datetime import datetime, timezone
 from pathlib import Path
 
 import build
 
 MERGED = {"wall_ms", "wall_min_ms", "cpu_ms", "cpu_min_ms", "once_ms", "setup_ms", "memory_mb", "runs", "compared", "work",
-          "error", "area_light", "renderer", "backend", "seconds"}
+          "error", "area_light", "renderer", "backend", "seconds", "process_cpu_s",
+          "at", "load"}
 
 
 def pointFields(point):
@@ -56,7 +59,8 @@ def merge(point, samples):
               "memory_mb": least("memory_mb", plain or samples), "memory_with_truth": not plain,
               "passes": len(samples), "runs": sum(s.get("runs", 1) for s in samples), "work": last.get("work", {}),
               "error": compared.get("error"), "area_light": compared.get("area_light"),
-              "renderer": last.get("renderer", "")}
+              "renderer": last.get("renderer", ""), "at": last.get("at", "")[:16],
+              "load": statistics.median(s.get("load", 0.0) for s in samples)}
     return rounded(result)
 
 
@@ -77,5 +81,6 @@ def machine(results):
     changed = bool(said(["git", "status", "--porcelain", "--untracked-files=no"]))
     renderers = sorted({r["renderer"] for r in results if r.get("renderer") and r["renderer"] != "CPU"})
     return {"processor": processor(), "cores": os.cpu_count() or 1, "renderer": ", ".join(renderers) or "CPU",
-            "date": datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
-            "commit": commit + (" with local changes" if changed else ""), "load": round(os.getloadavg()[0], 2)}
+            "date": max((r["at"].replace("T", " ") + " UTC" for r in results if r.get("at")), default="at an unknown time"),
+            "commit": commit + (" with local changes" if changed else ""),
+            "load": rounded(statistics.median(r.get("load", 0.0) for r in results) if results else 0.0)}

@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import tempfile
 import threading
@@ -34,10 +35,14 @@ def words(point, runs, compare, report):
     return command + (["--compare-truth"] if compare else [])
 
 
-def runChild(command):
-    """(exit status, what it said on stderr, peak memory in MB). The child is ended when it hangs or we are interrupted."""
+def runChild(command, output=subprocess.DEVNULL, environment=None):
+    """(exit status, what it said on stderr, resources it used). It is ended when it hangs or we are interrupted.
+
+    `output`: subprocess.STDOUT keeps what it said on both.
+    """
     with tempfile.TemporaryFile() as said:
-        child = subprocess.Popen(command, cwd=build.ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
+        child = subprocess.Popen(command, cwd=build.ROOT, stdin=subprocess.DEVNULL, stderr=said, env=environment,
+                                 stdout=said if output == subprocess.STDOUT else output)
         timer = threading.Timer(LIMIT_S, child.kill)
         timer.start()
         try:
@@ -50,7 +55,14 @@ def runChild(command):
         finally:
             timer.cancel()
         said.seek(0)
-        return child.returncode, said.read().decode(errors="replace").strip(), usage.ru_maxrss / 1024.0
+        return child.returncode, said.read().decode(errors="replace").strip(), usage
+
+
+def endOf(status):
+    """Of a program that said nothing."""
+    if status == -signal.SIGKILL:
+        return f"killed: it took longer than {LIMIT_S} s, or memory ran out"
+    return f"ended by signal {-status}" if status < 0 else f"no message; status {status}"
 
 
 def errorOf(entry):
@@ -68,16 +80,17 @@ def measure(point, runs=1, compare=True):
     """One sample: a dict as it is kept in results.jsonl. Throws PointError."""
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.json"
-        status, said, memory = runChild(words(point, runs, compare, report))
+        status, said, usage = runChild(words(point, runs, compare, report))
         if status != 0 or not report.is_file():
-            raise PointError((said or f"no message; status {status}").splitlines()[-1])
+            raise PointError((said or endOf(status)).splitlines()[-1])
         read = json.loads(report.read_text())
     time = read["time"]
     sample = {"wall_ms": time["frame_ms"]["median"], "wall_min_ms": time["frame_ms"]["min"],
               "cpu_ms": time["frame_cpu_ms"]["median"], "cpu_min_ms": time["frame_cpu_ms"]["min"],
-              "setup_ms": time["setup_ms"], "runs": time["frame_ms"]["runs"], "memory_mb": memory,
-              "compared": compare,
-              "once_ms": sum(time.get("passes_ms", {}).get(name, {}).get("median", 0.0) for name in point.once), "work": read["work"], "renderer": read["renderer"], "backend": read["backend"]}
+              "setup_ms": time["setup_ms"], "runs": time["frame_ms"]["runs"], "memory_mb": usage.ru_maxrss / 1024.0,
+              "process_cpu_s": usage.ru_utime + usage.ru_stime, "compared": compare,
+              "once_ms": sum(time.get("passes_ms", {}).get(name, {}).get("median", 0.0) for name in point.once),
+              "work": read["work"], "renderer": read["renderer"], "backend": read["backend"]}
     if compare:
         sample["error"] = errorOf(read.get("error"))
         sample["area_light"] = errorOf(read.get("error_area_light"))

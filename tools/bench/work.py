@@ -9,13 +9,13 @@ RATES = (    # (counter, of which counter, words)
     ("visibility_tests", "pixels_receiving", "{:.3g} tests a pixel"),
     ("shadow_rays", "pixels_receiving", "{:.3g} shadow rays a pixel"),
 )
-COUNTS = (   # (counter, words)
-    ("rays_traced", "{} rays"),
-    ("rays_baked", "{} rays in the bake"),
-    ("rays_saved_by_agreement", "{} rays saved where the first ones agreed"),
-    ("shadow_maps_rendered", "{} shadow maps"),
-    ("occluders_drawn", "{} projected triangles"),
-    ("draw_calls", "{} draw calls"),
+COUNTS = (   # (counter, words for one, words for more)
+    ("rays_traced", "one ray", "{} rays"),
+    ("rays_baked", "one ray in the bake", "{} rays in the bake"),
+    ("rays_saved_by_agreement", "one ray saved", "{} rays saved where the first ones agreed"),
+    ("occluders_drawn", "one projected triangle", "{} projected triangles"),
+    ("shadow_maps_rendered", "one shadow map", "{} shadow maps"),
+    ("triangles_submitted", "one triangle drawn", "{} triangles drawn"),
 )
 MOST = 3
 
@@ -32,5 +32,6 @@ def facts(work):
     said = [words.format(100.0 * work[counter] / work[of]) for counter, of, words in SHARES
             if work.get(of) and counter in work]
     said += [words.format(work[counter] / work[of]) for counter, of, words in RATES if work.get(of) and work.get(counter)]
-    said += [words.format(thousands(work[counter])) for counter, words in COUNTS if work.get(counter)]
+    said += [one if work[counter] == 1 else words.format(thousands(work[counter]))
+             for counter, one, words in COUNTS if work.get(counter)]
     return ", ".join(said[:MOST])
