@@ -23,7 +23,7 @@ MUTATIONS = {
     "ForgottenPi": (FORMS, "ambient_forms", "*", [("region.first.z / pi", "region.first.z")]),
     "HalfForTwoThirds": (MOMENTS, "ambient_forms", "*", [("2.0 / 3.0 * glm::dvec3(s1", "0.5 * glm::dvec3(s1")]),
     "CapsKeepWhatIsBelowTheHorizon": (
-        MOMENTS, "ambient_forms", "*", [("std::max(0.0, (sine - cosB) * (sine + cosB))", "0.0")]),
+        MOMENTS, "ambient_forms", "*", [("std::max(0.0, squared)", "0.0")]),
     "TooFewPointsOfARim": (MOMENTS, "ambient_forms", "*", [("> 1e-14", "> 1e-5")]),
     "SlopesSeeTheirHill": (
         FORMS, "ambient_forms", "*Slopes*", [("ambientInProfile(tilt, pi)", "ambientInProfile(0.0, pi - tilt)")]),
