@@ -1,4 +1,0 @@
-L=/work/main/build/release
-# usage: link.sh out objs...
-out=$1; shift
-g++ -O3 -o $out "$@" $L/chapters/libchapter_09_ambient_occlusion.a $L/chapters/libchapter_08_accumulation.a $L/chapters/libchapter_07_branching.a $L/chapters/libchapter_06_jitter_texture.a $L/chapters/libchapter_05_jittered_disk.a $L/chapters/libchapter_04_pcf.a $L/chapters/libchapter_03_polygon_offset.a $L/chapters/libchapter_02_shadow_test.a $L/chapters/libchapter_01_depth_from_light.a $L/chapters/libchapter_00_ray_traced_truth.a $L/common/libpenumbra_app.a $L/common/libpenumbra_gpu_scene.a $L/common/libpenumbra_gl.a $L/common/libpenumbra_truth.a -lembree3 $L/common/libpenumbra_scene.a -lmeshoptimizer $L/common/libpenumbra_image.a $L/common/libpenumbra_math.a $L/common/libpenumbra_system.a -ldl $L/common/libpenumbra_text.a -lfmt -ltinygltf -ltbb -lglfw -limgui -lstb
