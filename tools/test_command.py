@@ -5,6 +5,8 @@
     ./test 03               the tests of one chapter, and its page
     ./test --sanitize       unit tests (hostile files among them) under AddressSanitizer and UBSan
     ./test --fuzz SECONDS   libFuzzer on everything that reads a file
+    ./test --stress         numerical stress: 100 000 cases, an hour or two; a failing one is printed as a command line
+    ./test --stress 7       the same with another seed, other cases
     ./test --help
 
 The first run installs what is missing (as root, or with sudo) and builds. A failing image test leaves the picture, the
@@ -21,6 +23,7 @@ import house
 import test_page
 
 FUZZ_SECONDS = 20
+STRESS_SEED = 1  # of docs/stress.md
 
 
 def everything():
@@ -71,6 +74,8 @@ def perform(steps):
 def chosenSteps(options):
     if options.fuzz is not None:
         return [("fuzzing", lambda: checks.fuzz(options.fuzz))]
+    if options.stress is not None:
+        return [("numerical stress", lambda: checks.stress(options.stress))]
     if options.sanitize:
         return [("sanitizers", checks.sanitizers)]
     if options.chapter:
@@ -86,6 +91,7 @@ def parse(words):
     parser.add_argument("--fast", action="store_true", help="what is quick to run")
     parser.add_argument("--sanitize", action="store_true", help="only the sanitizers")
     parser.add_argument("--fuzz", type=int, metavar="SECONDS", help="only fuzzing, for so long")
+    parser.add_argument("--stress", type=int, nargs="?", const=STRESS_SEED, metavar="SEED", help="only numerical stress, for long")
     options = parser.parse_args(words)
     if options.chapter and not house.findChapter(build.ROOT, options.chapter):
         parser.error(f"there is no chapter {options.chapter}; there are {', '.join(house.chapterNames(build.ROOT))}")
