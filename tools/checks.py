@@ -13,6 +13,7 @@ import tidy
 ROOT = build.ROOT
 CORES = os.cpu_count() or 1
 LINES_OF_A_FAILURE = 60
+STRESS_CASES = 100000
 
 
 def run(words, **more):
@@ -118,6 +119,23 @@ def endurance():
         good, bad = judge(name, ran)
         passed, failed = passed + good, failed + bad
     return passed, failed
+
+
+def stress(seed):
+    """Every subject of tests/stress over many cases. It says itself how far it is; the report stays in out/stress.json, and
+    tools/stress_page.py makes a page of it."""
+    build.build("release", ["stress"])
+    report = ROOT / "out" / "stress.json"
+    report.unlink(missing_ok=True)
+    program = build.folder("release") / "bin" / "stress"
+    status = subprocess.run([program, "--cases", str(STRESS_CASES), "--seed", str(seed), "--report", report,
+                             "--kept", ROOT / "tests" / "stress" / "kept.txt"], cwd=ROOT).returncode
+    if not report.exists():
+        print(f"FAILED {program} (status {status})")
+        return 0, 1
+    done = json.loads(report.read_text())
+    failed = done["failed"] or int(status != 0)
+    return done["cases"] - done["failed"], failed
 
 
 def fuzz(seconds):

@@ -6,6 +6,8 @@
     ./test --sanitize       unit tests (hostile files among them) under AddressSanitizer and UBSan
     ./test --fuzz SECONDS   libFuzzer on everything that reads a file
     ./test --endurance      10 000 frames of all chapters in one process, and 200 kills while files are written
+    ./test --stress         numerical stress: 100 000 cases, an hour or two; a failing one is printed as a command line
+    ./test --stress 7       the same with another seed, other cases
     ./test --help
 
 The first run installs what is missing (as root, or with sudo) and builds. A failing image test leaves the picture, the
@@ -22,6 +24,7 @@ import house
 import test_page
 
 FUZZ_SECONDS = 20
+STRESS_SEED = 1  # of docs/stress.md
 
 
 def everything():
@@ -74,6 +77,8 @@ def chosenSteps(options):
         return [("fuzzing", lambda: checks.fuzz(options.fuzz))]
     if options.endurance:
         return [("endurance", checks.endurance)]
+    if options.stress is not None:
+        return [("numerical stress", lambda: checks.stress(options.stress))]
     if options.sanitize:
         return [("sanitizers", checks.sanitizers)]
     if options.chapter:
@@ -90,6 +95,7 @@ def parse(words):
     parser.add_argument("--sanitize", action="store_true", help="only the sanitizers")
     parser.add_argument("--endurance", action="store_true", help="only the long form of the endurance and kill tests")
     parser.add_argument("--fuzz", type=int, metavar="SECONDS", help="only fuzzing, for so long")
+    parser.add_argument("--stress", type=int, nargs="?", const=STRESS_SEED, metavar="SEED", help="only numerical stress, for long")
     options = parser.parse_args(words)
     if options.chapter and not house.findChapter(build.ROOT, options.chapter):
         parser.error(f"there is no chapter {options.chapter}; there are {', '.join(house.chapterNames(build.ROOT))}")

@@ -111,6 +111,21 @@ open(sys.argv[sys.argv.index("--report") + 1], "w").write(json.dumps({{"backend"
         self.write("fuzz/bin/fuzz_x", "#!/bin/sh\nexit 77\n", executable=True)
         self.assertEqual(self.outcome(checks.fuzz, 1)[0], (0, 1))
 
+    def stressed(self, failed, status):
+        """The outcome with a program that leaves a report of 30 cases; with None, none."""
+        write = "" if failed is None else f'''open(sys.argv[sys.argv.index("--report") + 1], "w").write(
+    json.dumps({{"cases": 30, "failed": {failed}}}))'''
+        (self.root / "out").mkdir(exist_ok=True)
+        self.write("release/bin/stress", f"#!/usr/bin/env python3\nimport json\nimport sys\n{write}\nsys.exit({status})\n",
+                   executable=True)
+        return self.outcome(checks.stress, 1)[0]
+
+    def testStressCountsCasesAndNoReportIsNoPass(self):
+        self.assertEqual(self.stressed(0, 0), (30, 0))
+        self.assertEqual(self.stressed(2, 1), (28, 2))
+        self.assertEqual(self.stressed(0, 1), (30, 1), "a kept case that failed")
+        self.assertEqual(self.stressed(None, 1), (0, 1))
+
 
 class ChoiceTest(unittest.TestCase):
     def steps(self, *words):
@@ -124,6 +139,8 @@ class ChoiceTest(unittest.TestCase):
             self.assertIn(step, everything)
         self.assertEqual(self.steps("--sanitize"), ["sanitizers"])
         self.assertEqual(self.steps("--fuzz", "0"), ["fuzzing"])
+        self.assertEqual(self.steps("--stress"), ["numerical stress"])
+        self.assertEqual(self.steps("--stress", "7"), ["numerical stress"])
         self.assertEqual(self.steps("03")[0], "tests of 03_polygon_offset")
 
 

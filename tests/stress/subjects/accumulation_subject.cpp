@@ -35,7 +35,7 @@ Verdict check(const Case& drawn) {
     settings.emplace_back("method", methods[std::size_t(variant) % 4]);
     settings.emplace_back("pattern", patterns[std::size_t(variant / 4) % 4]);
     settings.emplace_back("samples", std::to_string(std::min(given.integer("samples"), 64)));
-    ChapterHarness& shadowed = shown("08", "", anyScene(given));
+    ChapterHarness& shadowed = shown("08", "shares", anyScene(given));
     shadowed.set(settings);
     const FloatImage share = shadowed.picture("visibility", glm::ivec2(size), 3),
                      lit = shadowed.picture("irradiance", glm::ivec2(size), 3);
@@ -59,8 +59,11 @@ Verdict check(const Case& drawn) {
         for (int x = 0; x < size; ++x) {
             const float with = lit.at(x, y, 0), without = open.at(x, y, 0);
             if (!(with > without) || !seesGround(scene, exact, x, y, size)) continue;
+            // Lowered triangles leave the ground another share of the texels, and light is interpolated
+            // between them: off by h^2/8 times its second derivative, about 5/d^2 of itself at d = 3 metres;
+            // texels are h = 4/30 metres.
             verdict.expectAtMost("light gained by a shadow, of the brightest",
-                                 double(with - without) / std::max(double(brightest), 1e-30), 1e-5);
+                                 double(with - without) / std::max(double(brightest), 1e-30), 2e-3);
         }
     }
     return verdict;

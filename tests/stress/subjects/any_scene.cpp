@@ -56,8 +56,8 @@ Settings settingsOf(const Case& given) {
 
 std::string programsOf(const Case& given) {
     const std::string chapter = given.choice("chapter");
-    if (chapter != "06" && chapter != "07") return "";
-    return given.choice("light-type") + " " + given.choice("depth-format");
+    if (chapter != "06" && chapter != "07") return "any";
+    return "any " + given.choice("light-type") + " " + given.choice("depth-format");
 }
 
 }  // namespace penumbra::stress

@@ -45,7 +45,7 @@ double thickness(const Scene& scene, int x, int y, int size) {
 
 Verdict checkConvex(const Case& given) {
     Verdict verdict;
-    ChapterHarness& harness = shown("10", "", convexBody(given));
+    ChapterHarness& harness = shown("10", "convex", convexBody(given));
     const std::string format = given.choice("depth-format");
     harness.set("samples", std::to_string(std::min(given.integer("samples"), 64)));
     harness.set("map-size", std::to_string(given.integer("map-size")));

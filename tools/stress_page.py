@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Makes docs/stress.md of the report of a stress sweep.
+
+    ./test --stress                        leaves its report in out/stress.json
+    tools/stress_page.py out/stress.json   keeps it as docs/stress.json, and writes docs/stress.md
+"""
+import json
+import pathlib
+import shutil
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+REPORT, PAGE = "docs/stress.json", "docs/stress.md"
+
+HEAD = """# Numerical stress
+
+What the chapters and the exact answers promise must hold for every scene, not for the ones that somebody thought of. `./test
+--stress` draws cases by a seed, half of them anywhere in the ranges below, half at the ends of the ranges, at powers of two and
+one rounding beside them; `./test` tries the first 2000. A case that fails is shrunk to its simplest form and printed as a
+command that runs it again. This page is written by `tools/stress_page.py` from a report of such a run.
+"""
+
+FLOAT_ENDS = """## Where float32 ends
+
+The loader subtracts an origin near the first camera in double, so the distance of a scene from the origin of its file costs
+nothing until doubles end: at 1e8 metres they are 1.5e-8 metres apart, and a scene of 1e-6 metres stands on a grid of 67 steps.
+Its shape is then that of the rounded file, and everything below still holds for it. Scale costs nothing either.
+
+What floats cannot hold is a scene far *aside*: one whose first camera is many times its size away. Positions are then rounded
+to 2^-24 of that distance, and slopes and normals come from the difference of neighbouring pixels' positions. A picture n pixels
+high, through the full angle f, has steps of 2 tan(f/2) / n of the camera's distance between them, so these differences lose
+all meaning where aside reaches 2^24 times that step, and a share of aside / (2^24 step) of their digits before. The bounds are
+held, and tested, up to a thousand scene sizes aside, from where a scene is three pixels of 64 through one degree; what happens
+farther out is measured:
+"""
+
+
+def number(value):
+    return value if isinstance(value, str) else f"{value:.3g}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]) + "\n"
+
+
+def summary(report):
+    state = "nothing failed" if report["failed"] == 0 else f"{report['failed']} failed"
+    return (f"Seed {report['seed']}: {report['cases']} cases, {report['refused']} refused in one line, {state}; "
+            f"{report['cpu_seconds']:.0f} s of CPU, {report['cases_per_second']:.0f} cases a second.\n")
+
+
+def subjects(report):
+    rows = [(f"`{one['name']}`", one["claim"], one["cases"], one["refused"], one["failed"]) for one in report["subjects"]]
+    return "## What must hold\n\n" + table(("subject", "what must hold", "cases", "refused", "failed"), rows)
+
+
+def coverage(report):
+    """Cases of all subjects together for each piece of each axis."""
+    text = "## Coverage\n\nCases by the value of each axis; a piece reaches from its number to the next.\n"
+    for axis in report["axes"]:
+        counted = {}
+        for one in report["subjects"]:
+            for piece in one["bins"].get(axis["name"], []):
+                counted[piece["from"]] = counted.get(piece["from"], 0) + piece["cases"]
+        if counted:
+            unit = f" ({axis['unit']})" if axis["unit"] else ""
+            text += f"\n**`--{axis['name']}`**{unit}: {axis['help']}\n\n" + table(counted.keys(), [counted.values()])
+    return text
+
+
+def worst(report):
+    text = "## Worst cases\n\nThe largest value of each figure, and the case that gave it.\n"
+    for one in report["subjects"]:
+        if one["worst"]:
+            rows = [(figure["name"], number(figure["value"]), f"`{figure['command']}`") for figure in one["worst"]]
+            text += f"\n### {one['name']}\n\n" + table(("figure", "worst", "case"), rows)
+    return text
+
+
+def refusals(report):
+    rows = [(f"`{one['name']}`", why, times) for one in report["subjects"] for why, times in one["refusals"].items()]
+    return "## What is refused\n\n" + table(("subject", "the line", "times"), rows) if rows else ""
+
+
+def failures(report):
+    text = ""
+    for one in report["subjects"]:
+        for failure in one["failures"]:
+            text += f"* {failure['what']}\n  `{failure['command']}`\n"
+    return "## What failed\n\n" + text if text else ""
+
+
+def floatEnds(report):
+    """The figures that are measured however far aside a scene is, by how far it is."""
+    text = FLOAT_ENDS
+    for one in report["subjects"]:
+        pieces = one["bins"].get("aside", [])
+        names = sorted({name for piece in pieces for name in piece["worst"] if "however far aside" in name})
+        if names:
+            rows = [(piece["from"], piece["cases"], *(number(piece["worst"].get(name, 0.0)) for name in names)) for piece in pieces]
+            text += f"\n`{one['name']}`:\n\n" + table(("aside, from", "cases", *names), rows)
+    return text
+
+
+def pageOf(report):
+    parts = [HEAD, summary(report), failures(report), subjects(report), floatEnds(report), worst(report), refusals(report),
+             coverage(report)]
+    return "\n".join(part for part in parts if part)
+
+
+def main(words):
+    if len(words) != 1 or words[0].startswith("-"):
+        print(__doc__.strip())
+        return 0 if words in (["--help"], ["-h"]) else 2
+    try:
+        report = json.loads(pathlib.Path(words[0]).read_text())
+        page = pageOf(report)
+    except (OSError, ValueError, KeyError) as problem:
+        print(f"{words[0]}: no report of bin/stress: {problem}", file=sys.stderr)
+        return 1
+    if pathlib.Path(words[0]).resolve() != ROOT / REPORT:
+        shutil.copyfile(words[0], ROOT / REPORT)
+    (ROOT / PAGE).write_text(page)
+    print(f"wrote {REPORT} and {PAGE}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
