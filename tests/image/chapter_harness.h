@@ -63,9 +63,9 @@ class ChapterHarness {
         chapter_->declare(*parameters_);
         load();
     }
-    /// The chapter of `other` as it is, its programs compiled, for another scene: what most of a test's time would
-    /// go into is saved. `other` must still be there, so that nothing of this scene has an address that the chapter
-    /// knows. A chapter that keeps something of a scene needs load() too.
+    /// The chapter of `other` as it is, its programs compiled, for another scene: what most of a test's time
+    /// would go into is saved. `other` must still be there, so that nothing of this scene has an address that
+    /// the chapter knows. A chapter that keeps something of a scene needs load() too.
     ChapterHarness(const ChapterHarness& other, const Scene& theScene)
         : scene(theScene),
           camera(theScene.cameras.at(0)),

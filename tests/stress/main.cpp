@@ -30,7 +30,7 @@ struct Options {
     std::uint64_t cases = 0, seed = 1;  ///< 0 cases: not given
     std::vector<const Subject*> subjects;
     std::string report, kept;
-    std::vector<std::string> ofOneCase;  ///< --subject and flags of axes
+    std::vector<std::string> ofOneCase;    ///< --subject and flags of axes
     std::map<std::string, double> pinned;  ///< axes given: without --cases, it is one case
     bool help = false;
 };
