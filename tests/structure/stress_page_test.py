@@ -27,6 +27,7 @@ class StressPageTest(unittest.TestCase):
                          "run tools/stress_page.py docs/stress.json")
         self.assertEqual(report["failed"], 0)
         self.assertFalse(report["interrupted"])
+        self.assertGreaterEqual(report["cases"], 100000)
 
     def testSaysWhatFailedAndHowToRunItAgain(self):
         page = stress_page.pageOf(REPORT)
