@@ -66,6 +66,16 @@ double distanceTo(const Receiver& receiver, const glm::dvec3& p) {
     return nearest;
 }
 
+/// Where rounding could lift the receiver's own plane half way to a point of a light, it would shadow itself.
+/// Such a point shines so flat that it counts next to nothing: it shines past everything.
+bool tooLow(const ReceiverProjection& projection) {
+    return projection.far <= 0.5 * (1.0 + projection.near);
+}
+
+/// w < 0 everywhere: all is clipped.
+constexpr glm::dmat4 nothingDrawn(glm::dvec4(0.0), glm::dvec4(0.0), glm::dvec4(0.0),
+                                  glm::dvec4(0.0, 0.0, 0.0, -1.0));
+
 }  // namespace
 
 std::vector<glm::vec2> wholeTexture(const glm::ivec2& texels) {
@@ -83,9 +93,9 @@ ShadowPlan planShadows(const Scene& scene, const Receiver& receiver, const Light
     plan.reached = !plan.occluders.reaching.empty() || !skips(receiversUnreached);
     if (!plan.reached) return plan;
     for (const LightPoint& point : points) {
-        const auto projection =
-            projectOnReceiver(receiver, point, plan.occluders.near, plan.occluders.highest);
+        auto projection = projectOnReceiver(receiver, point, plan.occluders.near, plan.occluders.highest);
         if (!projection) continue;
+        if (points.size() > 1 && tooLow(*projection)) projection->clipFromWorld = nothingDrawn;
         plan.points.push_back(point);
         plan.projections.push_back(*projection);
     }

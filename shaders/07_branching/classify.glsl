@@ -23,7 +23,7 @@ Window windowAround(vec2 st) {
 // Exact where it says lit or dark: then every tap agrees, whatever the pattern. `z`: what the tap in the middle is compared with. A
 // tap at `o` is compared with z + slope.o, and reads a depth of at least above + plane.(st + o): so what counts is how the two
 // slopes differ over the disk, and that the texel's centre lies footprintTexels off. On the plane itself both vanish, and only the
-// bias is left.
+// bias is left. In the outer half of the map's outermost texels taps are moved inwards, off the disk: there nothing is known.
 float classify(Taps taps) {
     Window window = windowAround(taps.st);
     float z = uFarther * (taps.z - taps.bias);
@@ -34,6 +34,7 @@ float classify(Taps taps) {
     float excess = length(taps.radius * (slope - window.plane)) + (footprintTexels * texel + 6.0 * roundOff) * size;
     bool surelyLit = z + excess + rounding <= window.above + dot(window.plane, taps.st);
     bool surelyDark = z - length(taps.radius * slope) - rounding > window.farthest;
-    return surelyLit ? lit : surelyDark ? dark : mixed;
+    bool onDisk = taps.st == clamp(taps.st, taps.last.x, taps.last.y);
+    return onDisk && surelyLit ? lit : onDisk && surelyDark ? dark : mixed;
 }
 // [end:classify]
