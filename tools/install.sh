@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs the packages of tools/packages.txt that are missing: tools/install.sh run|test|peers
+# Installs the packages of tools/packages.txt that are missing: tools/install.sh run|test|peers|bench
 # Says nothing when there is nothing to do. Other distributions: installs nothing, and leaves the verdict to CMake.
 list="$(dirname "$0")/packages.txt"
 case "$1" in
@@ -36,7 +36,7 @@ apt() {
 }
 echo "installing $missing" >&2
 apt update || echo "apt-get update failed; trying with the package lists that are here" >&2
-if [ "$1" = peers ]; then  # one without the other will do, and the caller says which is left out
+if [ "$1" = peers ] || [ "$1" = bench ]; then  # one without the other will do, and the caller says which is left out
     for package in $missing; do
         apt install "$package" || true
     done
