@@ -72,30 +72,47 @@ TEST(Assets, MakerSaysHowItIsUsedAndWhatWentWrong) {
     EXPECT_EQ(WEXITSTATUS(std::system((maker + " /proc/nowhere 2>/dev/null").c_str())), 1);
 }
 
-TEST(Assets, TheKnotIsMadeWithAsManyTrianglesAsAreWanted) {
-    const std::string maker = (fs::read_symlink("/proc/self/exe").parent_path() / "make_assets").string();
-    const fs::path folder = fs::temp_directory_path() / ("assets_knot_test_" + std::to_string(getpid()));
-    const auto make = [&](const std::string& triangles, const fs::path& file) {
-        const std::string command = maker + " --knot " + triangles + " " + file.string() + " 2>/dev/null";
+/// make_assets --knot in a folder of its own.
+class KnotMaker {
+ public:
+    ~KnotMaker() { fs::remove_all(folder); }
+    int make(const std::string& triangles, const fs::path& file) const {
+        const std::string command = maker_ + " --knot " + triangles + " " + file.string() + " 2>/dev/null";
         return WEXITSTATUS(std::system(command.c_str()));
-    };
+    }
+    const fs::path folder = fs::temp_directory_path() / ("assets_knot_test_" + std::to_string(getpid()));
+
+ private:
+    const std::string maker_ = (fs::read_symlink("/proc/self/exe").parent_path() / "make_assets").string();
+};
+
+TEST(Assets, TheKnotIsMadeWithAsManyTrianglesAsAreWanted) {
+    const KnotMaker knots;
     for (const int wanted : {100, 1000, 12345}) {
-        const fs::path file = folder / "new" / (std::to_string(wanted) + ".glb");
-        ASSERT_EQ(make(std::to_string(wanted), file), 0);
+        const fs::path file = knots.folder / "new" / (std::to_string(wanted) + ".glb");
+        ASSERT_EQ(knots.make(std::to_string(wanted), file), 0);
         const Scene scene = loadGltf(file);
         const Part& knot = partNamed(scene, "knot");
         EXPECT_NEAR(double(knot.triangleCount), wanted, 0.02 * wanted);
         EXPECT_TRUE(knot.closed);
         EXPECT_EQ(scene.triangleCount() - knot.triangleCount, 14u) << "the floor and the light";
     }
-    ASSERT_EQ(make("70000", folder / "same.glb"), 0);
-    EXPECT_TRUE(bytesOf(folder / "same.glb") == bytesOf(assets / "knot.glb"));
+}
+
+TEST(Assets, AKnotOfSeventyThousandTrianglesIsTheSceneByteForByte) {
+    const KnotMaker knots;
+    ASSERT_EQ(knots.make("70000", knots.folder / "same.glb"), 0);
+    EXPECT_TRUE(bytesOf(knots.folder / "same.glb") == bytesOf(assets / "knot.glb"));
+}
+
+TEST(Assets, AWrongKnotIsRefused) {
+    const KnotMaker knots;
     for (const char* wrong : {"99", "5000001", "-1000", "1e4", "many", "''"})
-        EXPECT_EQ(make(wrong, folder / "wrong.glb"), 2) << wrong;
-    EXPECT_EQ(make("1000", folder / "knot.obj"), 2);
-    EXPECT_EQ(make("1000", folder / "same.glb" / "inside.glb"), 1) << "a file is no folder";
-    EXPECT_FALSE(fs::exists(folder / "wrong.glb"));
-    fs::remove_all(folder);
+        EXPECT_EQ(knots.make(wrong, knots.folder / "wrong.glb"), 2) << wrong;
+    EXPECT_FALSE(fs::exists(knots.folder / "wrong.glb"));
+    EXPECT_EQ(knots.make("1000", knots.folder / "knot.obj"), 2);
+    ASSERT_EQ(knots.make("1000", knots.folder / "file.glb"), 0);
+    EXPECT_EQ(knots.make("1000", knots.folder / "file.glb" / "inside.glb"), 1) << "a file is no folder";
 }
 
 TEST(Assets, HeckbertHerfIsTheSceneOfTheClosedForm) {
