@@ -16,6 +16,7 @@ import reports
 from bench import bounds, browse, command, curves, document, error, estimates, files, raster, results, runner, sections
 from bench import store, svg, techniques, work
 from bench.figures import Curve, Figure, Line, Mark, layOut
+from bench import measuring as measuring_module
 from bench.measuring import Measuring
 from bench.points import Point
 from bench.progress import Progress
@@ -91,6 +92,13 @@ class MeasuringTest(BenchTest):
         self.measure([point(2), point(4000)])
         runs = [re.search(r"--samples (\d+).*--runs (\d+)", line).groups() for line in self.started()]
         self.assertEqual(runs, [("2", "1"), ("4000", "1"), ("2", "12"), ("2", "12")])
+
+    def testRepeatsEndWhenTheTimeIsOverAndFirstPassesDoNot(self):
+        with mock.patch.dict(measuring_module.BUDGET_S, {False: 0}):
+            self.measure([point(2), point(4)])
+        self.assertEqual(len(self.started()), 2)
+        self.measure([point(2), point(4)])
+        self.assertEqual(len(self.started()), 6, "the next run goes on")
 
     def testAResultHoldsWhatTheReportsSay(self):
         found = self.measure([point(4, once=("bake",))]).results()[0]

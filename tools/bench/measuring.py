@@ -8,6 +8,7 @@ from bench.runner import PointError
 
 MOST_PASSES = {False: 3, True: 2}  # by `quick`
 SLOW_S, VERY_SLOW_S = 1.0, 5.0     # of a process without exact answer: twice, once
+BUDGET_S = {False: 1620, True: 165}  # a repeat that would take longer is left for the next run, which goes on from there
 
 
 def passesFor(samples, quick):
@@ -45,10 +46,14 @@ class Measuring:
                 if point not in self.failures and number >= len(samples) and number < passesFor(samples, self.quick)]
 
     def run(self):
-        """Measures all that is missing; an interrupt leaves what was measured."""
+        """Measures every point once, and again while there is time; an interrupt leaves what was measured."""
+        began = time.monotonic()
         for number in range(MOST_PASSES[self.quick]):
             todo = self.wanted(number)
             for i, point in enumerate(todo):
+                if number and time.monotonic() - began > BUDGET_S[self.quick]:
+                    self.progress.say(f"{BUDGET_S[self.quick] // 60} minutes are over: {len(todo) - i} repeats are left out")
+                    return self.progress.clear()
                 self.progress.show(i, len(todo), self.left(todo[i:], number), f"pass {number + 1}, {point.id}")
                 self.one(point)
         self.progress.clear()
