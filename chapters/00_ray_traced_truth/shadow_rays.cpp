@@ -25,9 +25,12 @@ void castRange(const RayTracer& tracer, const Hit& hit, const Light& light,
                std::span<std::uint8_t> seen, RayCounts& counts) {
     std::vector<ShadowRay> rays;
     std::vector<std::size_t> indices;
+    const auto facesAway = [&](std::size_t i) {
+        return glm::dot(hit.shadingNormal, samples[i].toLight) <= 0.0;
+    };
     for (std::size_t i = 0; i < samples.size(); ++i) {
         seen[i] = 0;
-        if (options.skip && glm::dot(hit.shadingNormal, samples[i].toLight) <= 0.0) {
+        if (options.skip && facesAway(i)) {
             ++counts.savedFacingAway;
             continue;
         }
@@ -36,7 +39,9 @@ void castRange(const RayTracer& tracer, const Hit& hit, const Light& light,
     }
     std::vector<std::uint8_t> blocked(rays.size());
     tracer.occluded(rays, blocked, light.part);
-    for (std::size_t k = 0; k < rays.size(); ++k) seen[indices[k]] = blocked[k] ? 0 : 1;
+    // Facing away is not seen, traced or not: --adaptive asks whether all agree.
+    for (std::size_t k = 0; k < rays.size(); ++k)
+        seen[indices[k]] = blocked[k] || facesAway(indices[k]) ? 0 : 1;
     counts.traced += std::int64_t(rays.size());
 }
 

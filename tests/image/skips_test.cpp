@@ -80,7 +80,8 @@ const std::vector<Tested>& chapters() {
     static const std::vector<Tested> all{
         {"00_ray_traced_truth",
          make<RayTracedTruth>,
-         {{"contact", {{"samples", "16"}}, {"color", "irradiance"}}}},
+         {{"contact", {{"samples", "16"}}, {"color", "irradiance"}},
+          {"courtyard", {{"samples", "32"}, {"light", "2"}}, {"visibility"}}}},
         {"01_depth_from_light", make<DepthFromLight>, {{"courtyard", map, {"color", "depth"}}}},
         {"02_shadow_test", make<ShadowTest>, {{"courtyard", map, shown}}},
         {"03_polygon_offset", make<PolygonOffset>, {{"courtyard", map, shown}}},
