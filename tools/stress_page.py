@@ -9,6 +9,8 @@ import pathlib
 import shutil
 import sys
 
+import files
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 REPORT, PAGE = "docs/stress.json", "docs/stress.md"
 
@@ -121,7 +123,7 @@ def main(words):
         return 1
     if pathlib.Path(words[0]).resolve() != ROOT / REPORT:
         shutil.copyfile(words[0], ROOT / REPORT)
-    (ROOT / PAGE).write_text(page)
+    files.write(ROOT / PAGE, page)
     print(f"wrote {REPORT} and {PAGE}")
     return 0
 

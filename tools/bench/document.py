@@ -3,6 +3,7 @@ import hashlib
 import json
 
 import build
+from files import write as put
 from bench import files, sections, svg
 
 DIGEST = "<!-- written by ./run bench from benchmark.json, digest {}: edit neither -->"
@@ -48,10 +49,10 @@ def write(machine, results):
     source = files.jsonOf(machine, results)
     # From what the file says, as the test does it.
     page, figures = pageOf(*read(source), source)
-    files.put(build.ROOT / "docs" / "benchmark.json", source)
-    files.put(build.ROOT / "docs" / "benchmark.md", page)
+    put(build.ROOT / "docs" / "benchmark.json", source)
+    put(build.ROOT / "docs" / "benchmark.md", page)
     for name, drawn in pictures(figures).items():
-        files.put(build.ROOT / "docs" / "images" / name, drawn)
+        put(build.ROOT / "docs" / "images" / name, drawn)
     for old in (build.ROOT / "docs" / "images").glob("bench_*.svg"):
         if old.name not in pictures(figures):
             old.unlink()

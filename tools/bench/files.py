@@ -4,6 +4,7 @@ import io
 import json
 
 import build
+from files import write as put
 from bench import browse, raster, svg
 
 COLUMNS = ("section", "scene", "quantity", "technique", "chapter", "axis", "value", "wall_ms", "wall_min_ms", "cpu_ms",
@@ -13,14 +14,6 @@ FIGURES = ("against", "truth", "pixels", "rmse", "mean_abs", "max_abs", "bias", 
 
 def folder():
     return build.ROOT / "out" / "bench"
-
-
-def put(path, text):
-    """Beside, then in its place: a run that is killed leaves the old file or the new one."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f"new_{path.name}")
-    temporary.write_text(text)
-    temporary.replace(path)
 
 
 def csvOf(results):
