@@ -12,6 +12,7 @@
 #include "chapters/09_ambient_occlusion/bake_file.h"
 #include "chapters/09_ambient_occlusion/vertex_bake.h"
 #include "chapters/10_accumulated_occlusion/direction_batches.h"
+#include "common/image/compare.h"
 #include "common/scene/light.h"
 #include "tests/image/chapter_harness.h"
 #include "tests/image/earlier_chapters.h"
@@ -46,14 +47,12 @@ double withRays(double error) {
     return std::hypot(error, 0.0038);
 }
 
+ImageError errorOf(const FloatImage& actual, const TruthImage& truth) {
+    return compareImages(actual, truth.value, truth.mask);
+}
+
 double rmseOf(const FloatImage& actual, const TruthImage& truth) {
-    double sum = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < actual.values.size(); ++i) {
-        if (truth.mask.values[i] == 0.0f) continue;
-        sum += std::pow(double(actual.values[i]) - truth.value.values[i], 2.0);
-        ++count;
-    }
-    return std::sqrt(sum / count);
+    return errorOf(actual, truth).rmse;
 }
 
 /// A floor, with or without a box on it, seen from above.
@@ -197,22 +196,10 @@ TEST(Chapter10Vertices, AreSavedAsTheyAre) {
 
 // --- soft edges --------------------------------------------------------------------------------------------
 
-struct SoftError {
-    double rmse = 0.0, bias = 0.0;
-};
-
-SoftError softErrorOf(const std::string& scene, const std::string& edges) {
+ImageError softErrorOf(const std::string& scene, const std::string& edges) {
     ChapterHarness harness =
         harnessOf(testScene(scene), {{"samples", "64"}, {"edges", edges}, {"map-size", "1024"}});
-    const TruthImage truth = harness.truth("ambient", small);
-    const FloatImage actual = harness.scalar("ambient", small);
-    double bias = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < actual.values.size(); ++i) {
-        if (truth.mask.values[i] == 0.0f) continue;
-        bias += double(actual.values[i]) - truth.value.values[i];
-        ++count;
-    }
-    return {rmseOf(actual, truth), bias / count};
+    return errorOf(harness.scalar("ambient", small), harness.truth("ambient", small));
 }
 
 /// Hard edges err by 0.031 there, by 64 directions.
@@ -220,7 +207,7 @@ constexpr double softBound = 0.021;
 
 TEST(Chapter10Soft, EdgesErrLessThanHardOnesAndStayWhereTheyAre) {
     for (const char* scene : {"spheres", "gully"}) {
-        const SoftError soft = softErrorOf(scene, "soft"), hard = softErrorOf(scene, "hard");
+        const ImageError soft = softErrorOf(scene, "soft"), hard = softErrorOf(scene, "hard");
         EXPECT_LE(soft.rmse, hard.rmse) << scene;
         EXPECT_LE(soft.rmse, softBound) << scene;
         EXPECT_LE(std::abs(soft.bias), 0.003) << scene;
@@ -427,16 +414,9 @@ class Chapter10Mutation : public testing::TestWithParam<Mutation> {};
 TEST_P(Chapter10Mutation, IsNoticed) {
     const MutatedShaders mutated("10_accumulated_occlusion/accumulate.frag", GetParam().from, GetParam().to);
     ChapterHarness harness = harnessOf(testScene("spheres"), {{"samples", "64"}});
-    const TruthImage truth = harness.truth("ambient", small);
-    const FloatImage actual = harness.scalar("ambient", small);
-    double bias = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < actual.values.size(); ++i) {
-        if (truth.mask.values[i] == 0.0f) continue;
-        bias += double(actual.values[i]) - truth.value.values[i];
-        ++count;
-    }
-    EXPECT_TRUE(rmseOf(actual, truth) > withRays(tableError(64)) || std::abs(bias / count) > 0.005)
-        << rmseOf(actual, truth) << " " << bias / count;
+    const ImageError error = errorOf(harness.scalar("ambient", small), harness.truth("ambient", small));
+    EXPECT_TRUE(error.rmse > withRays(tableError(64)) || std::abs(error.bias) > 0.005)
+        << error.rmse << " " << error.bias;
 }
 INSTANTIATE_TEST_SUITE_P(
     Shader, Chapter10Mutation,
@@ -454,7 +434,7 @@ class Chapter10SoftMutation : public testing::TestWithParam<Mutation> {};
 
 TEST_P(Chapter10SoftMutation, IsNoticed) {
     const MutatedShaders mutated("10_accumulated_occlusion/soft_edges.glsl", GetParam().from, GetParam().to);
-    const SoftError soft = softErrorOf("spheres", "soft");
+    const ImageError soft = softErrorOf("spheres", "soft");
     EXPECT_TRUE(soft.rmse > softBound || std::abs(soft.bias) > 0.003) << soft.rmse << " " << soft.bias;
 }
 INSTANTIATE_TEST_SUITE_P(
