@@ -60,7 +60,9 @@ ReceiverProjection fromPoint(const Receiver& receiver, const glm::dvec3& light, 
     // [end:far]
     ReceiverProjection projection;
     projection.near = near;
-    projection.far = std::max(1.0 - above, 0.5 * (1.0 + near));
+    const double halfWay = 0.5 * (1.0 + near);
+    projection.tooLow = 1.0 - above <= halfWay;
+    projection.far = std::max(1.0 - above, halfWay);
     const double depth = projection.far - near;
     const glm::dvec4 z = t * ((projection.far + near) / depth) -
                          glm::dvec4(0.0, 0.0, 0.0, 2.0 * projection.far * near / depth);

@@ -22,6 +22,9 @@ struct ReceiverProjection {
     glm::dmat4 clipFromWorld{1.0};
     double near = 0.0;
     double far = 1.0;
+    /// Rounding could lift the receiver's own plane half way to the light point, or more: `far` is not where
+    /// it should be, and the receiver may shadow itself.
+    bool tooLow = false;
 };
 
 /// What `near` to take when occluders may come up to the light: a thousandth of the way.

@@ -66,13 +66,8 @@ double distanceTo(const Receiver& receiver, const glm::dvec3& p) {
     return nearest;
 }
 
-/// Where rounding could lift the receiver's own plane half way to a point of a light, it would shadow itself.
-/// Such a point shines so flat that it counts next to nothing: it shines past everything.
-bool tooLow(const ReceiverProjection& projection) {
-    return projection.far <= 0.5 * (1.0 + projection.near);
-}
-
-/// w < 0 everywhere: all is clipped.
+/// w < 0 everywhere: all is clipped. For points of a light that are too low: each shines so flat that it
+/// counts next to nothing, and it shines past everything.
 constexpr glm::dmat4 nothingDrawn(glm::dvec4(0.0), glm::dvec4(0.0), glm::dvec4(0.0),
                                   glm::dvec4(0.0, 0.0, 0.0, -1.0));
 
@@ -95,7 +90,7 @@ ShadowPlan planShadows(const Scene& scene, const Receiver& receiver, const Light
     for (const LightPoint& point : points) {
         auto projection = projectOnReceiver(receiver, point, plan.occluders.near, plan.occluders.highest);
         if (!projection) continue;
-        if (points.size() > 1 && tooLow(*projection)) projection->clipFromWorld = nothingDrawn;
+        if (points.size() > 1 && projection->tooLow) projection->clipFromWorld = nothingDrawn;
         plan.points.push_back(point);
         plan.projections.push_back(*projection);
     }
