@@ -69,10 +69,11 @@ void addPictureFlags(Flags& flags, const ChapterInfo& info, Options& o) {
     flags.push_back({"size", "WxH", group,
                      "picture size in pixels, 1x1 to 16384x16384 (default 512x512; a window 1280x800)",
                      valued, [&o](const std::string& t) { o.size = o.windowSize = parseSize(t); }});
-    flags.push_back({"view", "NAME", group, "which image; see Views below (default color)", valued,
-                     [&o, names = viewNames(info)](const std::string& t) {
-                         requireChoice("view", t, names);
-                         o.view = t;
+    flags.push_back({"view", "NAME", group, "which image; see Views below (default color, also called lit)",
+                     valued, [&o, names = viewNames(info)](const std::string& t) {
+                         const std::string view = t == "lit" ? "color" : t;
+                         requireChoice("view", view, names);
+                         o.view = view;
                      }});
     flags.push_back(
         {"antialias", "N", group, "render N x N larger and average, 1 to 16 (default 1: one sample a pixel)",

@@ -81,6 +81,7 @@ TEST(CommandLine, EveryFlagArrives) {
     EXPECT_EQ(o.exposureEv, -1.5);
     EXPECT_EQ(o.antialias, 4);
     EXPECT_FALSE(line.parse({"--exposure", "auto"}).exposureEv.has_value());
+    EXPECT_EQ(line.parse({"--view", "lit"}).view, "color");
 }
 
 TEST(CommandLine, EveryParameterIsAFlag) {
