@@ -278,7 +278,7 @@ class Chapter11Scenes : public testing::TestWithParam<std::string> {};
 TEST_P(Chapter11Scenes, HaveNoNanAndTheSamePictureWithoutSkips) {
     const glm::ivec2 size(40, 40);
     ChapterHarness harness = harnessOf(testScene(GetParam()), {{"samples", "4"}, {"map-size", "64"}});
-    for (const char* source : {"rays", "vertices", "maps"}) {
+    for (const char* source : {"rays", "edges", "vertices", "maps"}) {
         harness.set("source", source);
         harness.skip = true;
         for (const std::string& view : views)
