@@ -13,7 +13,7 @@
 #include "chapters/09_ambient_occlusion/sky.h"
 #include "chapters/11_bent_normals/sh_irradiance.h"
 #include "common/math/sampling.h"
-#include "tests/unit/ambient_errors.h"
+#include "tests/unit/ambient_expectations.h"
 #include "tests/unit/ambient_quadrature.h"
 #include "tests/unit/ambient_situations.h"
 
@@ -27,7 +27,7 @@ using Convergence = std::array<Errors, rayCounts.size()>;
 
 Convergence convergenceOf(const Situation& situation, Weighting weighting) {
     Convergence errors;
-    std::ranges::copy(errorsOf(situation, weighting, rayCounts, estimateAmbient), errors.begin());
+    std::ranges::copy(expectErrors(situation, weighting, rayCounts, estimateAmbient), errors.begin());
     return errors;
 }
 

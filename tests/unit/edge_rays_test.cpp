@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "tests/unit/ambient_errors.h"
+#include "tests/unit/ambient_expectations.h"
 
 namespace penumbra {
 namespace {
@@ -25,7 +25,7 @@ TEST_P(EdgeRaysSlow, BentNormalsAreWithinATenthOfADegree) {
     for (const Weighting weighting : {Weighting::cosine, Weighting::uniform}) {
         const std::string name = weighting == Weighting::cosine ? "cosine" : "uniform";
         SCOPED_TRACE(name);
-        const auto errors = errorsOf(situation, weighting, rayCounts, estimateAtEdges);
+        const auto errors = expectErrors(situation, weighting, rayCounts, estimateAtEdges);
         expectUnbiased(errors.front(), 4.0, situation.rounding);
         expectUnbiased(errors.back(), 3.0, situation.rounding);
         const Errors& fine = errors.back();
