@@ -101,7 +101,8 @@ std::optional<double> neighboursSay(std::span<const AmbientDirection> first, int
     double least = 1.0, most = 0.0;
     const auto hear = [&](int i, int j) {
         if (i < 0 || j < 0 || i >= side || j >= side) return;
-        const double open = first[std::size_t(j * side + i)].open;
+        const int asked = j * side + i;
+        const double open = first[std::size_t(asked)].open;
         least = std::min(least, open);
         most = std::max(most, open);
     };
