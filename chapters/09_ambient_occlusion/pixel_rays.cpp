@@ -22,17 +22,20 @@ struct Seen {
     std::int64_t asked = 0;  ///< rays: traced, or known to get away
 };
 
+// [begin:pixels]
 Seen seenEvenly(const RayTracer& tracer, const Hit& hit, const AmbientRays& rays, std::uint32_t seed,
                 const Sky& sky) {
     Seen seen;
     const auto directions = castAmbientRays(tracer, hit, hit.shadingNormal, rays, seed, seen.asked);
     seen.value = averageOf(directions);
     for (const AmbientDirection& d : directions) {
-        seen.radiance += d.open * sky.radiance(d.direction) / double(rays.count);
+        seen.radiance += d.open * sky.radiance(d.direction);
         seen.asked += rays.nothingAbove && d.open == 1.0;
     }
+    seen.radiance /= double(rays.count);
     return seen;
 }
+// [end:pixels]
 
 }  // namespace
 
@@ -44,7 +47,6 @@ glm::dvec3 sunlight(const RayTracer& tracer, const Light& sun, const Hit& hit, c
     return sun.emission * (facing / std::numbers::pi);
 }
 
-// [begin:pixels]
 void PixelRays::tracePixel(const Frame& frame, const AmbientOptions& options, const SkyLight& light,
                            const glm::ivec2& pixel, Counts& counts) {
     const Ray ray = cameraRay(frame.camera, glm::dvec2(pixel) + 0.5, size_);
@@ -76,7 +78,6 @@ void PixelRays::tracePixel(const Frame& frame, const AmbientOptions& options, co
     std::copy_n(&stored.x, 4, &valueTexels_[i]);
     std::copy_n(&lit.x, 4, &lightTexels_[i]);
 }
-// [end:pixels]
 
 /// Every step-th pixel of row y, and its block filled with what was found.
 void PixelRays::traceRow(const Frame& frame, const AmbientOptions& options, const SkyLight& light, int y,
