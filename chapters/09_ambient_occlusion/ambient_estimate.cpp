@@ -42,19 +42,13 @@ glm::dvec3 bentNormal(const AmbientValue& value, const glm::dvec3& normal) {
 }
 
 // [begin:rays]
-std::vector<AmbientDirection> castAmbientRays(const RayTracer& tracer, const Hit& from,
-                                              const glm::dvec3& normal, const AmbientRays& rays,
-                                              std::uint32_t seed, std::int64_t& traced) {
-    const glm::dmat3 worldFromNormal = frameAround(normal);
+void traceDirections(const RayTracer& tracer, const Hit& from, const AmbientRays& rays,
+                     std::span<AmbientDirection> directions, std::int64_t& traced) {
     const bool limited = std::isfinite(rays.reach.range);
-    std::vector<AmbientDirection> directions(std::size_t(rays.count));
     std::vector<ShadowRay> asked;
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < directions.size(); ++i) {
-        const glm::dvec2 u = owenSobol(std::uint32_t(i), seed);
-        const glm::dvec3 w = worldFromNormal *
-                             (rays.weighting == Weighting::cosine ? cosineDirection(u) : uniformDirection(u));
-        directions[i].direction = w;
+        const glm::dvec3& w = directions[i].direction;
         if (glm::dot(from.geometricNormal, w) < -tangent) continue;  // into the surface itself
         directions[i].open = 1.0;
         if (rays.nothingAbove) continue;
@@ -72,6 +66,19 @@ std::vector<AmbientDirection> castAmbientRays(const RayTracer& tracer, const Hit
         direction.open = openAt(distanceAlong(tracer, from, direction.direction), rays.reach);
         ++traced;
     }
+}
+
+std::vector<AmbientDirection> castAmbientRays(const RayTracer& tracer, const Hit& from,
+                                              const glm::dvec3& normal, const AmbientRays& rays,
+                                              std::uint32_t seed, std::int64_t& traced) {
+    const glm::dmat3 worldFromNormal = frameAround(normal);
+    const bool cosine = rays.weighting == Weighting::cosine;
+    std::vector<AmbientDirection> directions(std::size_t(rays.count));
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const glm::dvec2 u = owenSobol(std::uint32_t(i), seed);
+        directions[i].direction = worldFromNormal * (cosine ? cosineDirection(u) : uniformDirection(u));
+    }
+    traceDirections(tracer, from, rays, directions, traced);
     return directions;
 }
 // [end:rays]

@@ -54,6 +54,10 @@ struct AmbientDirection {
     double open = 0.0;  ///< V of AmbientValue: 0 blocked, 1 open, between only with a smooth falloff
 };
 
+/// Sets `open` of directions, unit and in world space, for which it is 0. As below, whatever their number.
+void traceDirections(const RayTracer& tracer, const Hit& from, const AmbientRays& rays,
+                     std::span<AmbientDirection> directions, std::int64_t& traced);
+
 /// `rays.count` Owen-scrambled Sobol directions about `normal` (unit, on the side looked from), scrambled by
 /// `seed`, and how open each is. Directions below the surface itself, by from.geometricNormal (on that side
 /// too, as faceTheEye leaves it), are blocked and cost nothing. Adds the rays that were traced to `traced`.

@@ -87,8 +87,8 @@ const SkyLight& AmbientOptions::light(const Scene& scene) const {
 }
 
 std::string AmbientOptions::visibilityKey(std::uint32_t seed) const {
-    return fmt::format("{} {} {} {} {} {} {} {}", method, samples, weighting, range, falloff, values, share,
-                       seed);
+    return fmt::format("{} {} {} {} {} {} {} {} {}", method, samples, weighting, range, falloff, values,
+                       share, atEdges, seed);
 }
 
 std::string AmbientOptions::lightKey() const {

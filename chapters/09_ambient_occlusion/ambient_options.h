@@ -28,6 +28,7 @@ struct AmbientOptions {
     int samples = 64, truthRays = 4096;
     float range = 0.0f;
     bool sun = false, share = true;
+    bool atEdges = false;  ///< of --method rays: half of them where it matters (edge_rays.h); for chapter 11
     std::string method = "rays", weighting = "cosine", falloff = "hard", sky = "uniform", skyPart = "all",
                 values = "points", save = "none";
 

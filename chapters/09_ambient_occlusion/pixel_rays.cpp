@@ -5,6 +5,7 @@
 #include <mutex>
 #include <numbers>
 
+#include "chapters/09_ambient_occlusion/edge_rays.h"
 #include "common/math/sampling.h"
 #include "common/truth/parallel.h"
 
@@ -13,6 +14,28 @@ namespace penumbra {
 namespace {
 
 constexpr int coarsest = 16;  ///< pixels; a power of 4
+
+/// What a point sees, and the radiance that the sky sends to it.
+struct Seen {
+    AmbientValue value;
+    glm::dvec3 radiance{0.0};
+    std::int64_t asked = 0;  ///< rays: traced, or known to get away
+};
+
+// [begin:pixels]
+Seen seenEvenly(const RayTracer& tracer, const Hit& hit, const AmbientRays& rays, std::uint32_t seed,
+                const Sky& sky) {
+    Seen seen;
+    const auto directions = castAmbientRays(tracer, hit, hit.shadingNormal, rays, seed, seen.asked);
+    seen.value = averageOf(directions);
+    for (const AmbientDirection& d : directions) {
+        seen.radiance += d.open * sky.radiance(d.direction);
+        seen.asked += rays.nothingAbove && d.open == 1.0;
+    }
+    seen.radiance /= double(rays.count);
+    return seen;
+}
+// [end:pixels]
 
 }  // namespace
 
@@ -24,8 +47,7 @@ glm::dvec3 sunlight(const RayTracer& tracer, const Light& sun, const Hit& hit, c
     return sun.emission * (facing / std::numbers::pi);
 }
 
-// [begin:pixels]
-void PixelRays::tracePixel(const Frame& frame, const SkyLight& light, AmbientRays rays,
+void PixelRays::tracePixel(const Frame& frame, const AmbientOptions& options, const SkyLight& light,
                            const glm::ivec2& pixel, Counts& counts) {
     const Ray ray = cameraRay(frame.camera, glm::dvec2(pixel) + 0.5, size_);
     Hit& hit = hits_[std::size_t(pixel.y) * std::size_t(size_.x) + std::size_t(pixel.x)];
@@ -37,33 +59,31 @@ void PixelRays::tracePixel(const Frame& frame, const SkyLight& light, AmbientRay
         return;
     }
     faceTheEye(hit, ray);
+    AmbientRays rays = options.rays();
     rays.nothingAbove = frame.skips(raysToOpenSky) && planes_.nothingAbove(hit, rays.reach.range);
-    const auto directions = castAmbientRays(tracer_, hit, hit.shadingNormal, rays,
-                                            hashSeed(pixel.x, pixel.y, frame.seed), counts.traced);
-    const AmbientValue value = averageOf(directions);
-    glm::dvec3 sum(0.0);
-    std::int64_t open = 0;
-    for (const AmbientDirection& d : directions) {
-        sum += d.open * light.sky.radiance(d.direction);
-        open += d.open == 1.0;
+    const std::uint32_t seed = hashSeed(pixel.x, pixel.y, frame.seed);
+    Seen seen;
+    if (options.atEdges) {
+        seen.value = estimateAtEdges(tracer_, hit, hit.shadingNormal, rays, seed, seen.asked);
+        seen.radiance = seen.value.visibility * light.onOpenGround;
+    } else {
+        seen = seenEvenly(tracer_, hit, rays, seed, light.sky);
     }
-    glm::dvec3 radiance = sum / double(rays.count);
-    if (light.sun) radiance += sunlight(tracer_, *light.sun, hit, hit.shadingNormal);
-    if (rays.nothingAbove) counts.saved += open;
+    if (light.sun) seen.radiance += sunlight(tracer_, *light.sun, hit, hit.shadingNormal);
+    (rays.nothingAbove ? counts.saved : counts.traced) += seen.asked;
     ++counts.receiving;
-    const float work = rays.nothingAbove ? 0.0f : open == 0 || open == rays.count ? 1.0f : 2.0f;
-    const glm::vec4 stored(glm::vec3(value.bent), float(value.visibility)), lit(glm::vec3(radiance), work);
+    const double A = seen.value.visibility;
+    const float work = rays.nothingAbove ? 0.0f : A == 0.0 || A == 1.0 ? 1.0f : 2.0f;
+    const glm::vec4 stored(glm::vec3(seen.value.bent), float(A)), lit(glm::vec3(seen.radiance), work);
     std::copy_n(&stored.x, 4, &valueTexels_[i]);
     std::copy_n(&lit.x, 4, &lightTexels_[i]);
 }
-// [end:pixels]
 
 /// Every step-th pixel of row y, and its block filled with what was found.
 void PixelRays::traceRow(const Frame& frame, const AmbientOptions& options, const SkyLight& light, int y,
                          Counts& counts) {
-    const AmbientRays rays = options.rays();
     for (int x = 0; x < size_.x; x += step_) {
-        tracePixel(frame, light, rays, {x, y}, counts);
+        tracePixel(frame, options, light, {x, y}, counts);
         if (step_ == 1) continue;
         const std::size_t from = 4 * texel(x, y);
         for (int v = y; v < std::min(y + step_, size_.y); ++v)

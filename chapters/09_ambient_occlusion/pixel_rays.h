@@ -52,8 +52,8 @@ class PixelRays {
     void traceRows(const Frame& frame, const AmbientOptions& options, int count);
     void traceRow(const Frame& frame, const AmbientOptions& options, const SkyLight& light, int y,
                   Counts& counts);
-    void tracePixel(const Frame& frame, const SkyLight& light, AmbientRays rays, const glm::ivec2& pixel,
-                    Counts& counts);
+    void tracePixel(const Frame& frame, const AmbientOptions& options, const SkyLight& light,
+                    const glm::ivec2& pixel, Counts& counts);
     int rows() const { return (size_.y + step_ - 1) / step_; }
     void upload(const glm::ivec2& size);
     /// Of pixel (x, y), y down, in the arrays below, whose rows run up as textures do.

@@ -7,9 +7,9 @@
 namespace penumbra {
 
 void BentOptions::declare(Parameters& parameters) {
-    parameters.add("source", source, {"rays", "vertices", "maps"},
-                   "where A and B come from; rays: each pixel's (chapter 09), vertices: baked, maps: shadow "
-                   "maps (chapter 10)");
+    parameters.add("source", source, {"rays", "edges", "vertices", "maps"},
+                   "where A and B come from; rays: each pixel's (chapter 09), edges: half of them where open "
+                   "and blocked meet, vertices: baked, maps: shadow maps (chapter 10)");
     parameters.add("samples", samples, 1, 4096, "",
                    "rays at a point, or shadow maps; 4: grain or hard edges, 1024: smooth and slow");
     parameters.add("weighting", weighting, {"cosine", "uniform"},
@@ -34,12 +34,17 @@ void BentOptions::declare(Parameters& parameters) {
 void BentOptions::requireSense() const {
     if (isLinear() && weighting == "uniform")
         throw UsageError("--irradiance linear takes the cosine-weighted pair; leave --weighting at cosine");
+    if (source == "edges" && samples < 2)
+        throw UsageError(
+            "--source edges: looks a second time with half of the rays; use --samples 2 or more");
     if (source == "maps" && weighting == "uniform")
-        throw UsageError("--source maps: adds up by the cosine; use --source rays with --weighting uniform");
+        throw UsageError(
+            "--source maps: adds up by the cosine; use --source rays or edges with --weighting uniform");
 }
 
 const AmbientOptions& BentOptions::ambient() const {
     ambient_.method = source == "vertices" ? "vertices" : "rays";
+    ambient_.atEdges = source == "edges";
     ambient_.samples = samples;
     ambient_.weighting = weighting;
     return ambient_;

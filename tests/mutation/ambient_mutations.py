@@ -9,6 +9,7 @@ import mutants
 
 CHAPTER = "chapters/09_ambient_occlusion/"
 ESTIMATE, SKY, PLANES = CHAPTER + "ambient_estimate.cpp", CHAPTER + "sky.cpp", CHAPTER + "open_planes.cpp"
+EDGES = CHAPTER + "edge_rays.cpp"
 
 # name: (file, unit program, the test of it that must fail, [(old, new), ...])
 MUTATIONS = {
@@ -30,6 +31,9 @@ MUTATIONS = {
         ESTIMATE, "sky", "*Falloff*", [("1.0 - (1.0 - t) * (1.0 - t)", "(1.0 - t) * (1.0 - t)")]),
     "BlockedDirectionsBendTheNormal": (
         ESTIMATE, "ambient_exactness", "*LinearSkies*", [("d.open * d.direction", "d.direction")]),
+    # rays at edges
+    "TheirOwnRayIsAsked": (EDGES, "edge_rays", "*/Trench:*/Slope:*/Wall", [("if (i != 0 || j != 0) hear(", "hear(")]),
+    "NeighboursAreAlwaysRight": (EDGES, "edge_rays", "*/Trench:*/Slope:*/Wall", [("unlikely += (own.open - *said) * own.direction;", "")]),
     # skies
     "OvercastIsUniform": (SKY, "sky", "*Overcast*", [("(1.0 + 2.0 * sine) / 3.0", "1.0 + 0.0 * sine")]),
     "OvercastShinesFromBelow": (SKY, "sky", "*Overcast*", [("sine > 0.0 ?", "sine > -2.0 ?")]),

@@ -132,6 +132,9 @@ inline std::vector<Situation> situations() {
                    ambientOnGullyFloor(2.0, 3.0, 1.5), 2.0 * (1.0 + 2.0) / 30.0 / (2.0 * std::numbers::pi)});
     all.push_back({"LowWallNearby", onGround([](AmbientScene& s) { wall(s, 0.1, 0.1, 4.0); }),
                    ambientBesideWall(0.1, 0.1), 2.0 * 0.1 / 4.0 / (2.0 * std::numbers::pi)});
+    // Rays start 16 float ulps of a coordinate of 8 above the ground. Its top, 45 degrees up and so near, is
+    // that much lower.
+    all.back().rounding = 16.0 * 8.0 * 0x1p-23 / (4.0 * std::numbers::sqrt2 * 0.1);
     // Its ends are open, 40 away, and its rims at most 2 apart.
     all.push_back({"Trench", [](AmbientScene& s) { trench(s, 1.2, 18); },
                    ambientInTrench(1.2, 1.2 * 13.0 / 24.0), 2.0 * 2.0 / 40.0 / (2.0 * std::numbers::pi)});
