@@ -54,6 +54,12 @@ struct AmbientDirection {
     double open = 0.0;  ///< V of AmbientValue: 0 blocked, 1 open, between only with a smooth falloff
 };
 
+/// How open each of `directions` (unit, above the surface) is, as AmbientDirection::open. Adds the rays that
+/// were traced to `traced`.
+std::vector<double> openShares(const RayTracer& tracer, const Hit& from,
+                               std::span<const glm::dvec3> directions, const AmbientReach& reach,
+                               std::int64_t& traced);
+
 /// `rays.count` Owen-scrambled Sobol directions about `normal` (unit, on the side looked from), scrambled by
 /// `seed`, and how open each is. Directions below the surface itself, by from.geometricNormal (on that side
 /// too, as faceTheEye leaves it), are blocked and cost nothing. Adds the rays that were traced to `traced`.
