@@ -11,7 +11,7 @@
 
 namespace penumbra {
 
-inline constexpr Skip skyNotShown{"sky-not-shown", "rays_traced",
+inline constexpr Skip skyNotShown{"sky-not-shown", "points_asked",
                                   "no ray, bake or map of the sky for a picture of the lamp's light alone "
                                   "(--view diffuse, --combine none)"};
 

@@ -34,7 +34,7 @@ class BentNormals : public Chapter {
         options_.requireSense();
         // [begin:passes]
         const bool asked = options_.asksTheSky(frame.view) || !frame.skips(skyNotShown);
-        frame.work["rays_traced"] = 0;
+        frame.work["points_asked"] = asked ? seen_->points(frame, options_) : 0;
         if (asked) {
             // Pass 1: A and B of each point, from rays, from the vertices or from shadow maps (chapters 09,
             // 10).
