@@ -41,6 +41,7 @@ glm::dvec3 bentNormal(const AmbientValue& value, const glm::dvec3& normal) {
     return length > 0.0 ? value.bent / length : normal;
 }
 
+// [begin:rays]
 std::vector<double> openShares(const RayTracer& tracer, const Hit& from,
                                std::span<const glm::dvec3> directions, const AmbientReach& reach,
                                std::int64_t& traced) {
@@ -62,7 +63,6 @@ std::vector<double> openShares(const RayTracer& tracer, const Hit& from,
     return open;
 }
 
-// [begin:rays]
 std::vector<AmbientDirection> castAmbientRays(const RayTracer& tracer, const Hit& from,
                                               const glm::dvec3& normal, const AmbientRays& rays,
                                               std::uint32_t seed, std::int64_t& traced) {

@@ -112,6 +112,7 @@ void Keeper::save(PieceWork& work, std::size_t done) {
 
 }  // namespace
 
+// [begin:pieces]
 void doAllPieces(PieceWork& work, const std::filesystem::path& file, const ContentHash& key,
                  const ProgressCallback& progress) {
     Keeper keeper(file, key);
@@ -131,6 +132,7 @@ void doAllPieces(PieceWork& work, const std::filesystem::path& file, const Conte
     }
     keeper.remove();
 }
+// [end:pieces]
 
 void forRuns(PointRange range, const std::function<void(PointRange run)>& some) {
     parallelRows(int((range.end - range.first + pointsInRun - 1) / pointsInRun), [&](int row) {

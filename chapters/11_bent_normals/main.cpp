@@ -36,8 +36,7 @@ class BentNormals : public Chapter {
         const bool asked = options_.asksTheSky(frame.view) || !frame.skips(skyNotShown);
         frame.work["points_asked"] = asked ? seen_->points(frame, options_) : 0;
         if (asked) {
-            // Pass 1: A and B of each point, from rays, from the vertices or from shadow maps (chapters 09,
-            // 10).
+            // Pass 1: A and B of each point, from rays, vertices or shadow maps (chapters 09, 10).
             seen_->update(frame, options_);
 
             // Pass 2, once for a sky: what it gives to an open plane with any normal.
