@@ -42,30 +42,41 @@ glm::dvec3 bentNormal(const AmbientValue& value, const glm::dvec3& normal) {
 }
 
 // [begin:rays]
+std::vector<double> openShares(const RayTracer& tracer, const Hit& from,
+                               std::span<const glm::dvec3> directions, const AmbientReach& reach,
+                               std::int64_t& traced) {
+    const bool limited = std::isfinite(reach.range);
+    std::vector<ShadowRay> asked;
+    for (const glm::dvec3& w : directions)
+        asked.push_back(ShadowRay::from(from, limited ? from.position + reach.range * w : w, !limited));
+    std::vector<std::uint8_t> blocked(asked.size());
+    tracer.occluded(asked, blocked);
+    traced += std::int64_t(asked.size());
+    std::vector<double> open(asked.size(), 1.0);
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        if (!blocked[k]) continue;
+        open[k] = 0.0;
+        if (!limited || !reach.smooth) continue;
+        open[k] = openAt(distanceAlong(tracer, from, directions[k]), reach);
+        ++traced;
+    }
+    return open;
+}
+
 void traceDirections(const RayTracer& tracer, const Hit& from, const AmbientRays& rays,
                      std::span<AmbientDirection> directions, std::int64_t& traced) {
-    const bool limited = std::isfinite(rays.reach.range);
-    std::vector<ShadowRay> asked;
+    std::vector<glm::dvec3> asked;
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < directions.size(); ++i) {
         const glm::dvec3& w = directions[i].direction;
         if (glm::dot(from.geometricNormal, w) < -tangent) continue;  // into the surface itself
         directions[i].open = 1.0;
         if (rays.nothingAbove) continue;
-        asked.push_back(ShadowRay::from(from, limited ? from.position + rays.reach.range * w : w, !limited));
+        asked.push_back(w);
         indices.push_back(i);
     }
-    std::vector<std::uint8_t> blocked(asked.size());
-    tracer.occluded(asked, blocked);
-    traced += std::int64_t(asked.size());
-    for (std::size_t k = 0; k < asked.size(); ++k) {
-        if (!blocked[k]) continue;
-        AmbientDirection& direction = directions[indices[k]];
-        direction.open = 0.0;
-        if (!limited || !rays.reach.smooth) continue;
-        direction.open = openAt(distanceAlong(tracer, from, direction.direction), rays.reach);
-        ++traced;
-    }
+    const std::vector<double> open = openShares(tracer, from, asked, rays.reach, traced);
+    for (std::size_t k = 0; k < asked.size(); ++k) directions[indices[k]].open = open[k];
 }
 
 std::vector<AmbientDirection> castAmbientRays(const RayTracer& tracer, const Hit& from,

@@ -54,6 +54,12 @@ struct AmbientDirection {
     double open = 0.0;  ///< V of AmbientValue: 0 blocked, 1 open, between only with a smooth falloff
 };
 
+/// How open each of `directions` (unit, above the surface) is, as AmbientDirection::open. Adds the rays that
+/// were traced to `traced`.
+std::vector<double> openShares(const RayTracer& tracer, const Hit& from,
+                               std::span<const glm::dvec3> directions, const AmbientReach& reach,
+                               std::int64_t& traced);
+
 /// Sets `open` of directions, unit and in world space, for which it is 0. As below, whatever their number.
 void traceDirections(const RayTracer& tracer, const Hit& from, const AmbientRays& rays,
                      std::span<AmbientDirection> directions, std::int64_t& traced);

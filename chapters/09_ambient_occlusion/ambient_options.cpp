@@ -28,6 +28,13 @@ Light sunOf(const Scene& scene) {
 
 }  // namespace
 
+void declareReach(Parameters& parameters, float& range, std::string& falloff) {
+    parameters.add("range", range, 0.0f, 1000.0f, "metres",
+                   "only surfaces so near occlude; 0: all do, and rooms are black");
+    parameters.add("falloff", falloff, {"hard", "smooth"},
+                   "towards the end of the range; hard: a contour where it ends");
+}
+
 void declareSky(Parameters& parameters, std::string& sky) {
     parameters.addOrFile("sky", sky, Sky::names(),
                          "what shines: a name, or a latitude-longitude picture (.hdr, .exr)");
@@ -41,10 +48,7 @@ void AmbientOptions::declare(Parameters& parameters) {
                    "rays at a pixel or a point, or directions of the bits; 4: grain, 1024: smooth and slow");
     parameters.add("weighting", weighting, {"cosine", "uniform"},
                    "how directions count; uniform: rays are counted, and valleys are flat");
-    parameters.add("range", range, 0.0f, 1000.0f, "metres",
-                   "only surfaces so near occlude; 0: all do, and rooms are black");
-    parameters.add("falloff", falloff, {"hard", "smooth"},
-                   "towards the end of the range; hard: a contour where it ends");
+    declareReach(parameters, range, falloff);
     declareSky(parameters, sky);
     parameters.add("sky-part", skyPart, {"all", "east", "west", "north", "south"},
                    "the half of the sky that is on; bits are kept, so no ray is traced again");

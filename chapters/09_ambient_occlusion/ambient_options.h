@@ -19,6 +19,8 @@ struct SkyLight {
     std::optional<Light> sun;
 };
 
+/// The parameters --range and --falloff, of every chapter whose rays may end.
+void declareReach(Parameters& parameters, float& range, std::string& falloff);
 /// The parameter --sky, for Sky::named: of every chapter that has one.
 void declareSky(Parameters& parameters, std::string& sky);
 /// The skips of rays and bakes, and of drawing their picture.

@@ -17,9 +17,10 @@ namespace {
 
 constexpr int floatsPerVertex = 8;  // bent vector, visibility; radiance, work
 
-/// Where a bake of bits that is interrupted waits to be taken up again.
-std::filesystem::path partialFile(const Scene& scene) {
-    return truthCacheFolder() / (ContentHash().geometry(scene).hex() + ".bits");
+/// Where a bake that is interrupted waits to be taken up again: one of values, and one of bits, for each
+/// scene.
+std::filesystem::path partialFile(const Scene& scene, std::string_view what) {
+    return truthCacheFolder() / fmt::format("{}-{}.bake", ContentHash().geometry(scene).hex(), what);
 }
 
 }  // namespace
@@ -83,7 +84,8 @@ void BakedAmbient::bake(const Frame& frame, const AmbientOptions& options) {
     if (options.method == "bits") {
         bakeBitsOf(frame, options);
     } else {
-        const BakeSettings settings{options.rays(), frame.seed, options.share, frame.skips(raysToOpenSky)};
+        const BakeSettings settings{options.rays(), frame.seed, options.share, frame.skips(raysToOpenSky),
+                                    partialFile(scene_, "values")};
         AmbientBake baked = perTriangle_ ? bakeTriangles(scene_, *bundle_, settings, frame.progress)
                             : options.values == "least-squares"
                                 ? bakeVerticesLeastSquares(scene_, *bundle_, settings, 4, frame.progress)
@@ -100,8 +102,9 @@ void BakedAmbient::bakeBitsOf(const Frame& frame, const AmbientOptions& options)
         throw UsageError(
             fmt::format("--samples {}: --method bits stores 64 to 1024 directions", options.samples));
     const AmbientRays rays = options.rays();
-    BakedBits baked = penumbra::bakeBits(scene_, *bundle_, options.samples, rays.reach, partialFile(scene_),
-                                         frame.progress, frame.skips(raysToOpenSky));
+    BakedBits baked =
+        penumbra::bakeBits(scene_, *bundle_, options.samples, rays.reach, partialFile(scene_, "bits"),
+                           frame.progress, frame.skips(raysToOpenSky));
     bits_ = std::move(baked.bits);
     work_ = baked.work;
     values_.resize(bits_->points);

@@ -96,7 +96,7 @@ void PixelRays::traceRow(const Frame& frame, const AmbientOptions& options, cons
     }
 }
 
-void PixelRays::traceRows(const Frame& frame, const AmbientOptions& options, int count) {
+void PixelRays::traceRows(const Frame& frame, const AmbientOptions& options, int count, bool inParts) {
     const SkyLight& light = options.light(frame.scene);
     const bool middleRow = frame.view == "profile";  // shows no other
     std::mutex mutex;
@@ -112,7 +112,7 @@ void PixelRays::traceRows(const Frame& frame, const AmbientOptions& options, int
             counts_.saved += counts.saved;
             counts_.receiving += counts.receiving;
         },
-        frame.progress);
+        inParts ? ProgressCallback() : frame.progress);  // a part is over before anyone asks
     row_ += count;
 }
 
@@ -135,7 +135,7 @@ void PixelRays::refine(const Frame& frame, const AmbientOptions& options, bool i
     while (step_ > 0) {
         while (row_ < rows()) {
             if (inParts && step_ < coarsest && std::chrono::steady_clock::now() > stop) return;
-            traceRows(frame, options, inParts ? std::min(4, rows() - row_) : rows());
+            traceRows(frame, options, inParts ? std::min(4, rows() - row_) : rows(), inParts);
         }
         step_ /= 4;
         row_ = 0;

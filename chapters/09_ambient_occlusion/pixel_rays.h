@@ -49,7 +49,7 @@ class PixelRays {
 
     void start(const Frame& frame, const std::string& key, bool inParts);
     void refine(const Frame& frame, const AmbientOptions& options, bool inParts);
-    void traceRows(const Frame& frame, const AmbientOptions& options, int count);
+    void traceRows(const Frame& frame, const AmbientOptions& options, int count, bool inParts);
     void traceRow(const Frame& frame, const AmbientOptions& options, const SkyLight& light, int y,
                   Counts& counts);
     void tracePixel(const Frame& frame, const AmbientOptions& options, const SkyLight& light,

@@ -1,11 +1,16 @@
 #include "chapters/09_ambient_occlusion/vertex_bake.h"
 
+#include <fmt/format.h>
+
+#include <memory>
 #include <string>
+#include <string_view>
 
 #include "chapters/09_ambient_occlusion/least_squares.h"
 #include "chapters/09_ambient_occlusion/vertex_bake_neighbours.h"
 #include "chapters/09_ambient_occlusion/vertex_bake_points.h"
 #include "chapters/09_ambient_occlusion/vertex_bake_run.h"
+#include "chapters/09_ambient_occlusion/vertex_bake_shared.h"
 #include "common/error.h"
 #include "common/math/sampling.h"
 #include "common/truth/surface_hit.h"
@@ -14,16 +19,31 @@ namespace penumbra {
 
 namespace {
 
+/// All that the values of `points` depend on; `points` is what they are called. The number counts versions of
+/// what the file holds.
+ContentHash keyOf(const Scene& scene, const BakeSettings& settings, std::string_view points) {
+    const AmbientRays& rays = settings.rays;
+    ContentHash key;
+    key.text("ambient values 1").text(points).geometry(scene).number(std::int64_t(rays.count));
+    key.number(std::int64_t(rays.weighting)).number(rays.reach.range).number(std::int64_t(rays.reach.smooth));
+    key.number(std::int64_t(settings.seed)).number(std::int64_t(settings.share));
+    return key.number(std::int64_t(settings.skip));
+}
+
 template <class Neighbours>
 AmbientBake bakePoints(const Scene& scene, const RayBundle& bundle, const BakePoints& points,
-                       const BakeSettings& settings, const Neighbours& neighbours,
+                       const BakeSettings& settings, std::string_view name, const Neighbours& neighbours,
                        const ProgressCallback& progress) {
-    Bake bake(scene, bundle, points, settings, progress);
-    const std::vector<AmbientValue> values =
-        settings.share ? bake.shared(neighbours(scene, points)) : bake.alone();
+    std::unique_ptr<Bake> bake;
+    if (settings.share)
+        bake = std::make_unique<SharedBake>(scene, bundle, points, settings, neighbours(scene, points));
+    else
+        bake = std::make_unique<LoneBake>(scene, bundle, points, settings);
+    doAllPieces(*bake, settings.partialFile, keyOf(scene, settings, name), progress);
     AmbientBake result;
-    result.work = bake.work();
+    result.work = bake->work();
     result.values.reserve(points.pointOf.size());
+    const std::vector<AmbientValue> values = bake->values();
     for (const std::uint32_t point : points.pointOf) result.values.push_back(values[point]);
     return result;
 }
@@ -57,9 +77,11 @@ AmbientBake bakeVerticesLeastSquares(const Scene& scene, const RayBundle& bundle
         throw Error("least-squares vertex values need at least 3 samples in each triangle, not " +
                     std::to_string(samplesPerTriangle));
     const BakePoints places = spreadPoints(scene, samplesPerTriangle, settings.seed);
-    Bake bake(scene, bundle, places, settings, progress);
+    LoneBake bake(scene, bundle, places, settings);
+    doAllPieces(bake, settings.partialFile,
+                keyOf(scene, settings, fmt::format("{} in each triangle", samplesPerTriangle)), progress);
     std::vector<double> values;
-    for (const AmbientValue& v : bake.alone())
+    for (const AmbientValue& v : bake.values())
         values.insert(values.end(), {v.visibility, v.bent.x, v.bent.y, v.bent.z});
     const BakePoints vertices = vertexPoints(scene);
     const SampledSurface surface = sampledSurface(scene, vertices, samplesPerTriangle, settings.seed);
@@ -76,12 +98,13 @@ AmbientBake bakeVerticesLeastSquares(const Scene& scene, const RayBundle& bundle
 
 AmbientBake bakeVertices(const Scene& scene, const RayBundle& bundle, const BakeSettings& settings,
                          const ProgressCallback& progress) {
-    return bakePoints(scene, bundle, vertexPoints(scene), settings, vertexNeighbours, progress);
+    return bakePoints(scene, bundle, vertexPoints(scene), settings, "vertices", vertexNeighbours, progress);
 }
 
 AmbientBake bakeTriangles(const Scene& scene, const RayBundle& bundle, const BakeSettings& settings,
                           const ProgressCallback& progress) {
-    return bakePoints(scene, bundle, trianglePoints(scene), settings, triangleNeighbours, progress);
+    return bakePoints(scene, bundle, trianglePoints(scene), settings, "triangles", triangleNeighbours,
+                      progress);
 }
 
 }  // namespace penumbra

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "chapters/09_ambient_occlusion/ambient_estimate.h"
@@ -25,6 +26,9 @@ struct BakeSettings {
     /// exactly `count` rays at every point.
     bool share = true;
     bool skip = true;  ///< raysToOpenSky
+    /// What is finished waits here if the bake is interrupted (doAllPieces in work_in_pieces.h). Empty: it
+    /// does not.
+    std::filesystem::path partialFile = {};
 };
 
 struct BakeWork {

@@ -45,9 +45,8 @@ struct BakedBits {
 };
 
 /// Bits of every vertex of the scene by rays (point sampled), `directions` 64 to 1024. A non-empty
-/// `partialFile` keeps what is finished, a few times a second while that costs little, and is taken up again
-/// by the next call with the same scene, directions and reach: after Ctrl-C, or a kill. It is removed at the
-/// end. One that cannot be written keeps nothing, and the bake goes on. `skip`: raysToOpenSky.
+/// `partialFile` keeps what is finished for the next call with the same scene, directions and reach
+/// (doAllPieces in work_in_pieces.h). `skip`: raysToOpenSky.
 BakedBits bakeBits(const Scene& scene, const RayBundle& bundle, int directions, const AmbientReach& reach,
                    const std::filesystem::path& partialFile = {}, const ProgressCallback& progress = {},
                    bool skip = true);

@@ -1,29 +1,19 @@
-// Stored visibility from rays, in pieces that survive an interruption.
+// Stored visibility from rays.
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
-#include "chapters/09_ambient_occlusion/bake_file.h"
 #include "chapters/09_ambient_occlusion/vertex_bake_horizon.h"
 #include "chapters/09_ambient_occlusion/vertex_bake_points.h"
 #include "chapters/09_ambient_occlusion/visibility_bits.h"
+#include "chapters/09_ambient_occlusion/work_in_pieces.h"
 #include "common/error.h"
 #include "common/truth/shadow_packet.h"
-#include "common/truth/truth_cache.h"
 
 namespace penumbra {
 
 namespace {
-
-/// Of this many points the bits are finished together: between two of them there is time to save.
-constexpr std::size_t piece = 4096;
-constexpr int pointsAtOnce = 64;
-// A twentieth of the time goes into saving, at most; and a bake that is over at once needs none.
-constexpr int bakingPerSaving = 20;
-constexpr std::chrono::milliseconds leastBetweenSaves(300);
 
 /// The directions in an order that keeps similar ones together: rays of one point go eight side by side.
 std::vector<std::uint32_t> similarOrder(std::span<const glm::vec3> directions) {
@@ -37,7 +27,7 @@ std::vector<std::uint32_t> similarOrder(std::span<const glm::vec3> directions) {
     return order;
 }
 
-class BitsBake {
+class BitsBake final : public PieceWork {
  public:
     BitsBake(const Scene& scene, const RayBundle& bundle, int directions, double range, bool skip)
         : scene_(scene),
@@ -50,19 +40,10 @@ class BitsBake {
           bits_(VisibilityBits::allBlocked(skyDirections(directions), points_.points.size())),
           order_(similarOrder(bits_.directions)) {}
 
-    std::size_t pieces() const { return (points_.points.size() + piece - 1) / piece; }
-    void bakePiece(std::size_t which);
-
-    /// The bits of the first `done` pieces, as bytes.
-    std::string_view finished(std::size_t done) const {
-        const std::size_t words = std::min(done * piece, points_.points.size()) * bits_.wordsPerPoint();
-        return {reinterpret_cast<const char*>(bits_.words.data()), words * sizeof(std::uint64_t)};
-    }
-    /// The number of pieces taken over.
-    std::size_t takeUp(const PartialBake& partial) {
-        if (partial.done > pieces() || partial.payload.size() != finished(partial.done).size()) return 0;
-        std::memcpy(bits_.words.data(), partial.payload.data(), partial.payload.size());
-        return partial.done;
+    std::size_t pieces() const override { return piecesOf(points_.points.size()); }
+    void doPiece(std::size_t which) override;
+    std::vector<std::span<std::byte>> found(std::size_t done) override {
+        return {memoryOf(bits_.words, pointsDone(points_.points.size(), done) * bits_.wordsPerPoint())};
     }
     BakedBits result() const;
 
@@ -106,14 +87,11 @@ void BitsBake::bakePoint(std::size_t index, std::vector<BundleRay>& rays, std::v
         if (!blocked[i]) bits_.setOpen(index, asked[i]);
 }
 
-void BitsBake::bakePiece(std::size_t which) {
-    const std::size_t first = which * piece, count = std::min(piece, points_.points.size() - first);
-    parallelRows(int((count + pointsAtOnce - 1) / pointsAtOnce), [&](int row) {
+void BitsBake::doPiece(std::size_t which) {
+    forRuns(pieceOf(points_.points.size(), which), [&](PointRange run) {
         std::vector<BundleRay> rays;
         std::vector<std::uint32_t> asked;
-        const std::size_t begin = std::size_t(row) * pointsAtOnce;
-        for (std::size_t i = begin; i < std::min(count, begin + pointsAtOnce); ++i)
-            bakePoint(first + i, rays, asked);
+        for (std::size_t i = run.first; i < run.end; ++i) bakePoint(i, rays, asked);
     });
 }
 
@@ -130,50 +108,12 @@ BakedBits BitsBake::result() const {
     return baked;
 }
 
-/// A partial file, or none at all if its name is empty.
-class Keeper {
- public:
-    Keeper(std::filesystem::path file, std::string key) : file_(std::move(file)), key_(std::move(key)) {}
-
-    std::optional<PartialBake> load() const {
-        return file_.empty() ? std::nullopt : loadPartialBake(file_, key_);
-    }
-    /// On a full disk the bake goes on: an interruption then costs what was not kept.
-    void save(std::size_t done, std::string_view bytes) {
-        if (file_.empty() || done == saved_) return;
-        const Clock::time_point start = Clock::now();
-        try {
-            savePartialBake(file_, key_, done, bytes);
-        } catch (const Error&) {
-            file_.clear();
-            return;
-        }
-        saved_ = done;
-        savedAt_ = Clock::now();
-        betweenSaves_ = std::max<Clock::duration>(leastBetweenSaves, bakingPerSaving * (savedAt_ - start));
-    }
-    bool isTime() const { return Clock::now() - savedAt_ > betweenSaves_; }
-    void remove() const {
-        std::error_code ignored;
-        if (!file_.empty()) std::filesystem::remove(file_, ignored);
-    }
-
- private:
-    using Clock = std::chrono::steady_clock;
-    std::filesystem::path file_;
-    std::string key_;
-    std::size_t saved_ = 0;
-    Clock::time_point savedAt_ = Clock::now();
-    Clock::duration betweenSaves_ = leastBetweenSaves;
-};
-
-std::string keyOf(const Scene& scene, int directions, double range) {
+ContentHash keyOf(const Scene& scene, int directions, double range) {
     return ContentHash()
         .text("visibility bits 2")
         .geometry(scene)
         .number(std::int64_t(directions))
-        .number(range)
-        .hex();
+        .number(range);
 }
 
 }  // namespace
@@ -183,20 +123,7 @@ BakedBits bakeBits(const Scene& scene, const RayBundle& bundle, int directions, 
     if (directions < 64 || directions > 1024)
         throw Error("visibility bits need 64 to 1024 directions, not " + std::to_string(directions));
     BitsBake bake(scene, bundle, directions, reach.range, skip);
-    Keeper keeper(partialFile, keyOf(scene, directions, reach.range));
-    std::size_t done = 0;
-    if (const auto partial = keeper.load()) done = bake.takeUp(*partial);
-    try {
-        while (done < bake.pieces()) {
-            bake.bakePiece(done++);
-            if (keeper.isTime()) keeper.save(done, bake.finished(done));
-            if (progress) progress(double(done) / double(bake.pieces()));
-        }
-    } catch (...) {  // the caller's progress stops the work: nothing that is finished is lost
-        keeper.save(done, bake.finished(done));
-        throw;
-    }
-    keeper.remove();
+    doAllPieces(bake, partialFile, keyOf(scene, directions, reach.range), progress);
     return bake.result();
 }
 

@@ -14,6 +14,7 @@ void BentOptions::declare(Parameters& parameters) {
                    "rays at a point, or shadow maps; 4: grain or hard edges, 1024: smooth and slow");
     parameters.add("weighting", weighting, {"cosine", "uniform"},
                    "how open directions count; uniform: the lecture's loop, B leans too far");
+    declareReach(parameters, range, falloff);
     parameters.add("lookup", lookUp, {"normal", "bent"},
                    "direction in which the irradiance is looked up; normal: an arch is lit by its own wall");
     parameters.add(
@@ -27,6 +28,7 @@ void BentOptions::declare(Parameters& parameters) {
     parameters.add("map-size", mapSize, 16, 8192, "texels",
                    "side of a shadow map of --source maps; 64: leaks, 4096: slow");
     parameters.add("truth-rays", truthRays, 64, 65536, "", "rays at a pixel of the exact answer");
+    parameters.skips().declare(skyNotShown);
     declareAmbientSkips(parameters);
     declareOcclusionSkips(parameters);
 }
@@ -40,6 +42,10 @@ void BentOptions::requireSense() const {
     if (source == "maps" && weighting == "uniform")
         throw UsageError(
             "--source maps: adds up by the cosine; use --source rays or edges with --weighting uniform");
+    if (source == "maps" && range > 0.0f)
+        throw UsageError(
+            "--range with --source maps: a shadow map knows what is nearest to the sky, not to the point; "
+            "use --source rays or vertices, or --range 0");
 }
 
 const AmbientOptions& BentOptions::ambient() const {
@@ -47,6 +53,8 @@ const AmbientOptions& BentOptions::ambient() const {
     ambient_.atEdges = source == "edges";
     ambient_.samples = samples;
     ambient_.weighting = weighting;
+    ambient_.range = range;
+    ambient_.falloff = falloff;
     return ambient_;
 }
 

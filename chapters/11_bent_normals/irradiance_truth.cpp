@@ -23,13 +23,15 @@ using std::numbers::pi;
 /// Seeds of the exact answer are not those of the estimate: it would agree with its own noise.
 constexpr std::uint32_t truthSeed = 0x7275u;
 
-TruthImage compute(const TruthRequest& request, const Sky& sky, const SkyDensity& density, int rays) {
+TruthImage compute(const TruthRequest& request, const Sky& sky, const SkyDensity& density,
+                   const AmbientRays& rays) {
     const PrimaryHits primary = primaryHits(request.tracer, request.camera, request.size);
     HalvesDiffer halves(request.size.y);
     const auto answer = [&](const Hit& hit, int x, int y, float* value) {
         const std::uint32_t seed = hashSeed(std::uint32_t(x), std::uint32_t(y), truthSeed);
         const auto half = [&](std::uint32_t i) {
-            return tracedIrradiance(request.tracer, hit, sky, density, rays / 2, hashSeed(seed, i));
+            return tracedIrradiance(request.tracer, hit, sky, density, rays.count / 2, hashSeed(seed, i),
+                                    rays.reach);
         };
         const glm::dvec3 first = half(1), second = half(2);
         halves.add(y, first - second, 3);
@@ -40,7 +42,7 @@ TruthImage compute(const TruthRequest& request, const Sky& sky, const SkyDensity
     TruthImage truth = surfaceTruth(primary, 3, answer, request.progress);
     truth.quantity = "irradiance";
     truth.method =
-        fmt::format("ray traced, {} rays a pixel, standard error {:.1e}", rays, halves.standardError());
+        fmt::format("ray traced, {} rays a pixel, standard error {:.1e}", rays.count, halves.standardError());
     truth.against = "sky";
     return truth;
 }
@@ -49,12 +51,12 @@ TruthImage compute(const TruthRequest& request, const Sky& sky, const SkyDensity
 
 // [begin:traced]
 glm::dvec3 tracedIrradiance(const RayTracer& tracer, const Hit& from, const Sky& sky,
-                            const SkyDensity& density, int rays, std::uint32_t seed) {
+                            const SkyDensity& density, int rays, std::uint32_t seed,
+                            const AmbientReach& reach) {
     const glm::dvec3& n = from.shadingNormal;
     const glm::dmat3 worldFromNormal = frameAround(n);
     const int byCosine = density.isBlack() ? rays : (rays + 1) / 2;
-    std::vector<ShadowRay> asked;
-    std::vector<glm::dvec3> arriving;
+    std::vector<glm::dvec3> asked, arriving;
     for (int i = 0; i < rays; ++i) {
         const bool cosine = i < byCosine;
         const glm::dvec2 u =
@@ -64,23 +66,25 @@ glm::dvec3 tracedIrradiance(const RayTracer& tracer, const Hit& from, const Sky&
         if (facing <= 0.0 || glm::dot(from.geometricNormal, w) <= 0.0) continue;
         // Rays per steradian, of either kind.
         const double both = byCosine * facing / pi + (rays - byCosine) * density.at(w);
-        asked.push_back(ShadowRay::from(from, w, true));
+        asked.push_back(w);
         arriving.push_back(sky.radiance(w) * (facing / both));
     }
-    std::vector<std::uint8_t> blocked(asked.size());
-    tracer.occluded(asked, blocked);
+    std::int64_t traced = 0;
+    const std::vector<double> open = openShares(tracer, from, asked, reach, traced);
     glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < asked.size(); ++i)
-        if (!blocked[i]) sum += arriving[i];
+    for (std::size_t i = 0; i < asked.size(); ++i) sum += open[i] * arriving[i];
     return sum;
 }
 // [end:traced]
 
-TruthImage irradianceTruth(const TruthRequest& request, const Sky& sky, int rays) {
+TruthImage irradianceTruth(const TruthRequest& request, const Sky& sky, const AmbientRays& rays) {
     const SkyDensity density(sampleSky([&](const glm::dvec3& w) { return sky.radiance(w); }));
     ContentHash key;
-    key.text("irradiance by the sky's density, 1").geometry(request.scene).camera(request.camera);
-    key.number(std::int64_t(request.size.x)).number(std::int64_t(request.size.y)).number(std::int64_t(rays));
+    key.text("irradiance by the sky's density, 2").geometry(request.scene).camera(request.camera);
+    key.number(std::int64_t(request.size.x))
+        .number(std::int64_t(request.size.y))
+        .number(std::int64_t(rays.count));
+    key.number(rays.reach.range).number(std::int64_t(rays.reach.smooth));
     key.array(std::span<const double>(density.cells()));
     return cachedTruth(key, [&] { return compute(request, sky, density, rays); });
 }

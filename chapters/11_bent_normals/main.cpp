@@ -4,6 +4,7 @@
 // Under a sky that is not the same everywhere, A times what an open plane gets is not enough: the sky has to
 // be looked up where it is seen. The irradiance of the sky is kept in nine numbers or a small picture, and
 // the look-up goes along B instead of n.
+#include "chapters/01_depth_from_light/shadow_options.h"
 #include "chapters/06_jitter_texture/program_variants.h"
 #include "chapters/09_ambient_occlusion/ambient_truth.h"
 #include "chapters/09_ambient_occlusion/backdrop.h"
@@ -32,17 +33,24 @@ class BentNormals : public Chapter {
     void render(const Frame& frame) override {
         options_.requireSense();
         // [begin:passes]
-        // Pass 1: A and B of each point, from rays, from the vertices or from shadow maps (chapters 09, 10).
-        seen_->update(frame, options_);
+        const bool asked = options_.asksTheSky(frame.view) || !frame.skips(skyNotShown);
+        frame.work["points_asked"] = asked ? seen_->points(frame, options_) : 0;
+        if (asked) {
+            // Pass 1: A and B of each point, from rays, vertices or shadow maps (chapters 09, 10).
+            seen_->update(frame, options_);
 
-        // Pass 2, once for a sky: what it gives to an open plane with any normal.
-        frame.work["irradiance_map_rows"] = sky_->update(frame.scene, options_);
+            // Pass 2, once for a sky: what it gives to an open plane with any normal.
+            frame.work["irradiance_map_rows"] = sky_->update(frame.scene, options_);
+        }
 
         // Pass 3: the picture. Each pixel looks the irradiance up along B, and takes A of it.
         const PassScope scope(frame.passTimer, "picture");
         backdrop_->draw(frame, options_.shining(), frame.view == "color" && options_.combine == "principled");
         glEnable(GL_DEPTH_TEST);
-        seen_->draw(surfaces(frame), frame, options_);
+        if (asked)
+            seen_->draw(underTheSky(frame), frame, options_);
+        else
+            drawPicture(surfaces(frame, {"LAMP_ALONE"}), frame);
         // [end:passes]
     }
 
@@ -50,7 +58,7 @@ class BentNormals : public Chapter {
         AmbientRays rays = options_.ambient().rays();
         rays.count = options_.truthRays;
         if (request.view == "irradiance")
-            return irradianceTruth(request, options_.skyOf(request.scene), options_.truthRays);
+            return irradianceTruth(request, options_.skyOf(request.scene), rays);
         if (request.view == "ambient") return ambientTruth(request, rays);
         if (request.view == "bent-normal") return bentNormalTruth(request, rays);
         throw UsageError(
@@ -66,9 +74,15 @@ class BentNormals : public Chapter {
 
  private:
     /// The shaders of bent.frag for this source and sky, their uniforms set.
-    Program& surfaces(const Frame& frame) {
+    Program& underTheSky(const Frame& frame) {
         std::vector<std::string> defines = seen_->defines(options_), sky = sky_->defines(options_);
         defines.insert(defines.end(), sky.begin(), sky.end());
+        Program& program = surfaces(frame, defines);
+        sky_->set(program, options_);
+        return program;
+    }
+
+    Program& surfaces(const Frame& frame, const std::vector<std::string>& defines) {
         Program& program = surfaces_->with(defines);
         program.set("uClipFromWorld",
                     glm::mat4(clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y)));
@@ -76,7 +90,6 @@ class BentNormals : public Chapter {
         program.set("uCombine", options_.combine == "principled" ? 0 : options_.combine == "adhoc" ? 1 : 2);
         program.set("uLookUpBent", options_.lookUp == "bent");
         setLight(program, options_.lamp(frame.scene));
-        sky_->set(program, options_);
         return program;
     }
 

@@ -23,6 +23,11 @@ void SeenSky::update(const Frame& frame, const BentOptions& options) {
 }
 // [end:sources]
 
+std::int64_t SeenSky::points(const Frame& frame, const BentOptions& options) const {
+    if (options.source == "vertices") return std::int64_t(scene_.positions.size());
+    return std::int64_t(frame.size.x) * frame.size.y;
+}
+
 std::vector<std::string> SeenSky::defines(const BentOptions& options) const {
     if (options.source == "vertices") return {"STORED"};
     return {};

@@ -17,6 +17,8 @@ class SeenSky {
     explicit SeenSky(const Scene& scene) : scene_(scene) {}
     /// Brings them up to date, by the counters of chapters 09 and 10.
     void update(const Frame& frame, const BentOptions& options);
+    /// How many these are.
+    std::int64_t points(const Frame& frame, const BentOptions& options) const;
     /// What 11_bent_normals/bent.vert and bent.frag are to be compiled with.
     std::vector<std::string> defines(const BentOptions& options) const;
     /// Draws the picture's surfaces with (B, A) as attribute 3 or as texture uSeen. After update.

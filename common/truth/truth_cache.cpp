@@ -111,8 +111,9 @@ std::optional<TruthImage> decode(std::string_view file) {
 }
 
 std::optional<TruthImage> load(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) return std::nullopt;  // reading a folder throws
     std::ifstream in(file, std::ios::binary);
-    if (!in) return std::nullopt;
     return decode(std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
@@ -120,7 +121,7 @@ std::optional<TruthImage> load(const std::filesystem::path& file) {
 bool isCached(const std::filesystem::path& file) {
     const std::string name = file.filename().string();
     const std::string whole = name.substr(0, name.find(".part-"));
-    return whole.ends_with(".truth") || whole.ends_with(".bits");
+    return whole.ends_with(".truth") || whole.ends_with(".bake");
 }
 
 void removeOldest(const std::filesystem::path& folder) {

@@ -6,9 +6,9 @@
 in vec3 pWorld;
 in vec3 nWorld;
 in vec2 vUv;
-#ifdef STORED
+#if defined(STORED)
 in vec4 vSeen;
-#else
+#elif !defined(LAMP_ALONE)
 uniform sampler2D uSeen;  // a texel for each pixel
 #endif
 
@@ -18,6 +18,12 @@ uniform int uView;     // 0 color, 1 ambient, 2 bent-normal, 3 irradiance, 4 dif
 
 out vec4 outColor;
 
+#ifdef LAMP_ALONE
+// What is shown has nothing to do with the sky, and nobody has asked for it.
+vec4 seenHere() { return vec4(0.0); }
+vec3 bentNormal(vec3 bent, vec3 n) { return n; }
+vec3 ambientIrradiance(vec4 seen, vec3 n) { return vec3(0.0); }
+#else
 // xyz: bent vector; w: ambient visibility. The hemisphere that a vertex shares with its neighbours may be a little less than empty.
 vec4 seenHere() {
 #ifdef STORED
@@ -46,6 +52,7 @@ vec3 ambientIrradiance(vec4 seen, vec3 n) {
 #endif
 }
 // [end:ambient-term]
+#endif
 
 // Blue: all is open; dark: nothing is; red: in between, where the look-ups differ.
 vec3 workColour(float A) {

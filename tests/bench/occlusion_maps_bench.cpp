@@ -2,7 +2,9 @@
 // tables:
 //   pixels: 512 x 512 of them, the whole against its bare parts, each alone: as many depth passes of the same
 //   mesh
-//     into one map, back faces culled, and as many look-ups at each pixel;
+//     into one map, back faces culled, and as many look-ups at each pixel; and the depth passes in two other
+//     ways: a draw for each layer of an array, as chapter 10 does, and one instanced draw for each atlas of
+//     16;
 //   vertices: by N directions of the whole sphere, of which N/2 are above each vertex, against 1024 rays.
 // Rounds are interleaved, times are of the CPU, of all threads together, and the smallest of all rounds; run
 // it with `taskset -c 1` on a machine that has other things to do.
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "chapters/09_ambient_occlusion/vertex_bake.h"
 #include "chapters/10_accumulated_occlusion/accumulated_occlusion.h"
@@ -26,9 +29,9 @@ namespace {
 
 constexpr glm::ivec2 pictureSize(512, 512);
 
-/// Nothing of its own: the harness makes its frames.
+/// Nothing of its own: the harness makes its frames, with the skips that they are asked for.
 class NoChapter : public Chapter {
-    void declare(Parameters&) override {}
+    void declare(Parameters& parameters) override { declareOcclusionSkips(parameters); }
     void load(const Scene&, const Context*) override {}
     void render(const Frame&) override {}
     TruthImage truth(const TruthRequest&) override { return {}; }
@@ -63,6 +66,15 @@ class Parts {
           lookUp_("common/fullscreen.vert", "tests/bare_look_up.frag",
                   {"BATCH " + std::to_string(maps_.layers())}),
           sums_(pictureSize) {
+        glBindTexture(GL_TEXTURE_2D, atlas_.id());
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, atlasSide * mapSize, atlasSide * mapSize, 0,
+                     GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+        glBindFramebuffer(GL_FRAMEBUFFER, atlasFramebuffer_.id());
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, atlas_.id(), 0);
+        const GLenum none = GL_NONE;
+        glDrawBuffers(1, &none);
+        glReadBuffer(GL_NONE);
+        requireCompleteFramebuffer("an atlas of shadow maps");
         const BoundingSphere sphere = boundingSphere(scene);
         for (const glm::dvec3& l : all_) frusta_.push_back(skyFrustum(sphere, l));
         receivers_.drawPixels(frame);
@@ -71,6 +83,41 @@ class Parts {
 
     void depthPasses(const Frame& frame) {
         for (const LightFrustum& frustum : frusta_) one_.render(depth_, frame, {&frustum, 1});
+    }
+
+    void layers(const Frame& frame) {
+        const std::size_t batch = std::size_t(maps_.layers());
+        for (std::size_t first = 0; first < frusta_.size(); first += batch)
+            maps_.render(depth_, frame,
+                         std::span(frusta_).subspan(first, std::min(batch, frusta_.size() - first)));
+    }
+
+    /// What lies in one tile's bounds stays there: every frustum is around the whole scene, so that nothing
+    /// has to be clipped.
+    void atlases(const Frame& frame) {
+        const VisibleClusters all = allClusters(frame.scene);
+        glBindFramebuffer(GL_FRAMEBUFFER, atlasFramebuffer_.id());
+        glViewport(0, 0, atlasSide * mapSize_, atlasSide * mapSize_);
+        glEnable(GL_DEPTH_TEST);
+        glDepthMask(GL_TRUE);
+        glDepthFunc(GL_LESS);
+        for (std::size_t first = 0; first < frusta_.size(); first += tiles) {
+            std::vector<glm::vec4> columns;
+            for (std::size_t i = first; i < std::min(first + tiles, frusta_.size()); ++i) {
+                const std::size_t tile = i - first;
+                glm::dmat4 atlasFromClip(1.0);
+                atlasFromClip[0][0] = atlasFromClip[1][1] = 1.0 / atlasSide;
+                atlasFromClip[3][0] = (2.0 * double(tile % atlasSide) + 1.0) / atlasSide - 1.0;
+                atlasFromClip[3][1] = (2.0 * double(tile / atlasSide) + 1.0) / atlasSide - 1.0;
+                const glm::mat4 atlasFromWorld(atlasFromClip * frusta_[i].clipFromWorld());
+                for (int c = 0; c < 4; ++c) columns.push_back(atlasFromWorld[c]);
+            }
+            const float farthest = 1.0f;
+            glClearBufferfv(GL_DEPTH, 0, &farthest);
+            atlasDepth_.set("uAtlasColumns", columns);
+            atlasDepth_.prepareToDraw();
+            frame.gpu->drawDepth({.visible = &all, .instances = int(columns.size() / 4)});
+        }
     }
 
     void lookUps() {
@@ -100,11 +147,17 @@ class Parts {
     }
 
  private:
+    static constexpr int atlasSide = 4;
+    static constexpr std::size_t tiles = std::size_t(atlasSide) * atlasSide;
+
     std::vector<glm::dvec3> all_;
     int mapSize_;
     std::vector<LightFrustum> frusta_;
     SkyMaps one_, maps_;
     Program depth_{"01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag"}, lookUp_;
+    Program atlasDepth_{"tests/depth_atlas.vert", "01_depth_from_light/depth.frag", {"TILES 16"}};
+    GlTexture atlas_;
+    GlFramebuffer atlasFramebuffer_;
     Receivers receivers_;
     TexturePair sums_;
     FullscreenTriangle triangle_;
@@ -123,7 +176,9 @@ void pixels(const Scene& scene, int directions, int rounds) {
         const Sky sky = Sky::uniform(glm::dvec3(1.0));
         std::vector<Way> ways{{"depth passes", [&] { parts.depthPasses(frame); }},
                               {"look-ups", [&] { parts.lookUps(); }},
-                              {"the whole", [&] { whole.update(frame, options, sky); }}};
+                              {"the whole", [&] { whole.update(frame, options, sky); }},
+                              {"depth passes into layers", [&] { parts.layers(frame); }},
+                              {"into atlases of 16, instanced", [&] { parts.atlases(frame); }}};
         measure(ways, rounds);
         const double sum = ways[0].best + ways[1].best;
         fmt::print("{} pixels {}x{}, {} directions, maps of {}:", scene.name, pictureSize.x, pictureSize.y,

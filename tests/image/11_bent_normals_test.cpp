@@ -269,6 +269,13 @@ TEST(Chapter11LookUp, OnlyTheNoiseOfTheRaysIsLeftUnderTheSkiesItIsExactFor) {
     EXPECT_LE(lookUpError("gully", "uniform", {{"irradiance", "sh"}}), 0.0065);
 }
 
+// Indoors a sky that is seen past what is far away: the exact answer, too, ends its rays. Where a range ends
+// is an edge all around, longer than that of one occluder: 15 % more than above.
+TEST(Chapter11LookUp, IsAsExactWithARange) {
+    EXPECT_LE(lookUpError("room", "uniform", {{"range", "1"}, {"truth-rays", "2048"}}), 1.15 * 0.0065);
+    EXPECT_LE(lookUpError("room", "uniform", {{"range", "1"}, {"falloff", "smooth"}}), 0.0065);
+}
+
 // --- pictures ----------------------------------------------------------------------------------------------
 
 const std::vector<std::string> views{"color", "irradiance", "ambient", "bent-normal", "diffuse", "work"};
@@ -386,6 +393,41 @@ TEST(Chapter11Picture, AdHocIsVisibilityTimesTheUnshadowedLamp) {
     }
 }
 
+TEST(Chapter11Picture, WithARangeTheSameIsSeenAsInChapter09) {
+    const glm::ivec2 size(40, 40);
+    for (const auto& [source, method] : {std::pair("rays", "rays"), {"vertices", "vertices"}})
+        for (const char* falloff : {"hard", "smooth"}) {
+            const Settings reach{{"samples", "16"}, {"range", "0.5"}, {"falloff", falloff}};
+            ChapterHarness ours = harnessOf(testScene("room"), reach);
+            ours.set("source", source);
+            ChapterHarness theirs = harnessOf<AmbientOcclusion>(testScene("room"), reach);
+            theirs.set("method", method);
+            const FloatImage ambient = ours.scalar("ambient", size);
+            EXPECT_EQ(ambient, theirs.scalar("ambient", size)) << source << falloff;
+            ours.set("range", "0");
+            EXPECT_GT(largestDifference(ambient, ours.scalar("ambient", size)), 0.5) << source << falloff;
+        }
+}
+
+// The lamp's light has nothing to do with the sky: nothing is asked, whatever the source.
+TEST(Chapter11Picture, OfTheLampAloneCostsNoRayAndNoMap) {
+    const glm::ivec2 size(32, 32);
+    for (const char* source : {"rays", "vertices", "maps"}) {
+        ChapterHarness harness = harnessOf(testScene("knot"), {{"samples", "8"}, {"map-size", "64"}});
+        harness.set("source", source);
+        const FloatImage diffuse = harness.picture("diffuse", size, 3);
+        harness.set("combine", "none");
+        const FloatImage none = harness.picture("color", size, 3);
+        EXPECT_EQ(harness.work["rays_traced"] + harness.work["shadow_maps_rendered"], 0) << source;
+        harness.skip = false;
+        EXPECT_EQ(harness.picture("color", size, 3), none) << source;
+        EXPECT_GT(harness.work["rays_traced"] + harness.work["shadow_maps_rendered"], 0) << source;
+        EXPECT_EQ(harness.picture("diffuse", size, 3), diffuse) << source;
+        harness.skip = true;
+        EXPECT_GT(brightest(harness.picture("irradiance", size, 3)), 0.0) << source;
+    }
+}
+
 TEST(Chapter11Picture, AmbientAndBentNormalAreThoseOfManyRays) {
     const glm::ivec2 size(40, 40);
     ChapterHarness harness = harnessOf(testScene("gully"), {{"samples", "256"}, {"truth-rays", "1024"}});
@@ -422,6 +464,7 @@ TEST(Chapter11Picture, RefusesWhatMeansNothing) {
     };
     refuses({{"irradiance", "linear"}, {"weighting", "uniform"}});
     refuses({{"source", "maps"}, {"weighting", "uniform"}});
+    refuses({{"source", "maps"}, {"range", "1"}});
     refuses({{"light", "60"}});
     refuses({{"sky", "nowhere/sky.hdr"}});
     ChapterHarness harness = harnessOf(testScene("contact"));

@@ -104,7 +104,7 @@ class ChapterHarness {
                 .seed = 0,
                 .skips = skips_,
                 .cpuPicture = &cpuPicture_,
-                .progress = silent_,
+                .progress = progress,
                 .passTimer = passTimer,
                 .renderMapsAgain = renderMapsAgain};
     }
@@ -141,6 +141,7 @@ class ChapterHarness {
     Camera camera;                 ///< the scene's first, to be changed at will
     bool skip = true;              ///< false: --skip-none
     bool renderMapsAgain = false;  ///< as a timed frame does
+    ProgressCallback progress;     ///< of the frames; none: they are silent
     WorkCounters work;             ///< of the latest picture
     PassTimer* passTimer = nullptr;
     const Context* contextInstead = nullptr;  ///< what a frame says it is drawn with: one that can do less
@@ -148,7 +149,7 @@ class ChapterHarness {
  private:
     TruthRequest request(const std::string& view, const glm::ivec2& size) {
         if (!tracer_) tracer_ = std::make_unique<RayTracer>(scene);
-        return {scene, *tracer_, camera, size, view, silent_, &context_};
+        return {scene, *tracer_, camera, size, view, progress, &context_};
     }
 
     const Context& context_;
@@ -158,7 +159,6 @@ class ChapterHarness {
     std::shared_ptr<RenderTarget> target_;
     Skips skips_;  ///< of the latest frame
     std::unique_ptr<RayTracer> tracer_;
-    ProgressCallback silent_;
     FloatImage cpuPicture_;
 };
 

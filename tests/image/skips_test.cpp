@@ -108,7 +108,8 @@ const std::vector<Tested>& chapters() {
           {"gully", {{"samples", "64"}, {"map-size", "64"}, {"method", "vertices"}}, {"bent-normal"}}}},
         {"11_bent_normals",
          make<BentNormals>,
-         {{"gully", {{"samples", "16"}, {"source", "rays"}}, {"irradiance"}},
+         {{"gully", {{"samples", "16"}, {"source", "rays"}}, {"irradiance", "diffuse"}},
+          {"knot", {{"samples", "16"}, {"source", "vertices"}, {"combine", "none"}}, {"color"}},
           {"gully", {{"samples", "16"}, {"source", "vertices"}}, {"irradiance"}},
           {"gully", {{"samples", "32"}, {"source", "maps"}, {"map-size", "64"}}, {"irradiance"}}}}};
     return all;

@@ -20,13 +20,13 @@ MUTATIONS = {
         ESTIMATE, "ambient_exactness", "*InsideCorner*", [("rays.weighting == Weighting::cosine", "true")]),
     "RaysBeginTooFarAway": (
         ESTIMATE, "sky", "*Contact*",
-        [("ShadowRay::from(from, limited ? from.position + rays.reach.range * w : w, !limited)",
-          "ShadowRay{from.position + 0.01 * w, limited ? from.position + rays.reach.range * w : w, from.geometricNormal, "
+        [("ShadowRay::from(from, limited ? from.position + reach.range * w : w, !limited)",
+          "ShadowRay{from.position + 0.01 * w, limited ? from.position + reach.range * w : w, from.geometricNormal, "
           "from.edgeDistance, from.triangle, !limited}")]),
     "DirectionsBelowTheSurfaceAreOpen": (ESTIMATE, "sky", "*BelowTheSurface*", [("< -tangent) continue;", "< -2.0) continue;")]),
     "TheHorizonIsBelow": (
         ESTIMATE, "ambient_exactness", "*ExactlyOne*", [("< -tangent) continue;", "< 0.01) continue;")]),
-    "RangesAreForgotten": (ESTIMATE, "ambient_exactness", "*BeyondItsRange*", [("std::isfinite(rays.reach.range)", "false")]),
+    "RangesAreForgotten": (ESTIMATE, "ambient_exactness", "*BeyondItsRange*", [("std::isfinite(reach.range)", "false")]),
     "FalloffTheWrongWayRound": (
         ESTIMATE, "sky", "*Falloff*", [("1.0 - (1.0 - t) * (1.0 - t)", "(1.0 - t) * (1.0 - t)")]),
     "BlockedDirectionsBendTheNormal": (

@@ -478,37 +478,6 @@ TEST(VisibilityBits, UnderAUniformSkyAnOpenPlaneHasPiTimesTheRadiance) {
     }
 }
 
-struct Stop {};
-
-TEST(VisibilityBits, AStoppedBakeIsTakenUpAgain) {
-    const TemporaryFolder folder;
-    const auto file = folder / "bits.part";
-    const Scene scene = heightField(110, hillsWithGully);  // three pieces of 4096
-    const RayBundle bundle(scene);
-    const BakedBits whole = bakeBits(scene, bundle, 64, {}, file);
-    EXPECT_FALSE(std::filesystem::exists(file));
-    const auto stop = [&] {
-        EXPECT_THROW(bakeBits(scene, bundle, 64, {}, file, [](double) { throw Stop(); }), Stop);
-        EXPECT_TRUE(std::filesystem::exists(file));
-    };
-    stop();
-    const BakedBits rest = bakeBits(scene, bundle, 64, {}, file);
-    EXPECT_LT(rest.work.rays, 0.8 * double(whole.work.rays));
-    EXPECT_EQ(rest.bits.words, whole.bits.words);
-    EXPECT_FALSE(std::filesystem::exists(file));
-
-    stop();  // another reach: begins anew
-    EXPECT_EQ(bakeBits(scene, bundle, 64, {0.5, false}, file).bits.words,
-              bakeBits(scene, bundle, 64, {0.5, false}).bits.words);
-    stop();  // damaged: begins anew
-    std::string bytes = bytesOf(file);
-    bytes[bytes.size() - 9] = char(bytes[bytes.size() - 9] ^ 4);
-    writeFile(file, bytes);
-    const BakedBits again = bakeBits(scene, bundle, 64, {}, file);
-    EXPECT_EQ(again.work.rays, whole.work.rays);
-    EXPECT_EQ(again.bits.words, whole.bits.words);
-}
-
 TEST(BakeFile, AnAmbientSceneSurvivesAFile) {
     const TemporaryFolder folder;
     Scene made = heightField(12, hillsWithGully);

@@ -92,33 +92,44 @@ TEST_F(FaultsSlow, KilledAtAnyMomentTheOldFileOrTheNewOneIsThere) {
 TEST_F(FaultsSlow, AfterCtrlCABakeGoesOnWhereItWas) {
     const std::string core =
         std::to_string(::sched_getcpu());  // with dozens of them it would be over before Ctrl-C
-    const auto bake = [&] {
-        return callWith({"PENUMBRA_TRUTH_CACHE=cache", "taskset", "-c", core}, "09_ambient_occlusion",
-                        {"--scene", "knot", "--size", "16x16", "--method", "bits", "--samples", "640",
-                         "--report", "r.json", "--output", "a.png"});
+    struct Kind {
+        std::string method, samples;
+        Words saved;
     };
-    const auto partial = [&] {
-        if (!fs::exists(folder / "cache")) return false;
-        const auto entries = fs::directory_iterator(folder / "cache");
-        return std::any_of(begin(entries), end(entries),
-                           [](const auto& e) { return e.path().extension() == ".bits"; });
-    };
-    ProgramCall interrupted = bake();
-    interrupted.signal = SIGINT;
-    const auto tooLate = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    interrupted.signalWhen = [&] { return partial() || std::chrono::steady_clock::now() > tooLate; };
-    expectOneLine(runProgram(interrupted), 130, "interrupted");
-    EXPECT_FALSE(fs::exists(folder / "a.png"));
-    ASSERT_TRUE(partial());
-    const auto rays = [&] {
-        expectSilence(runProgram(bake()));
-        EXPECT_FALSE(partial()) << "what is finished need not wait";
-        return Json::parse(bytesOf(folder / "r.json"))["work"]["rays_baked"].get<std::int64_t>();
-    };
-    const std::int64_t rest = rays();
-    const std::string resumed = bytesOf(folder / "a.png");
-    EXPECT_LT(rest, rays()) << "it began anew";
-    EXPECT_EQ(resumed, bytesOf(folder / "a.png"));
+    for (const Kind& kind :
+         std::vector<Kind>{{"bits", "640", {}}, {"vertices", "192", {"--save", "a.glb"}}}) {
+        SCOPED_TRACE(kind.method);
+        const auto bake = [&] {
+            Words words{"--scene",  "knot",   "--size",    "16x16",      "--method", kind.method,
+                        "--report", "r.json", "--samples", kind.samples, "--output", "a.png"};
+            words.insert(words.end(), kind.saved.begin(), kind.saved.end());
+            return callWith({"PENUMBRA_TRUTH_CACHE=cache", "taskset", "-c", core}, "09_ambient_occlusion",
+                            words);
+        };
+        const auto partial = [&] {
+            if (!fs::exists(folder / "cache")) return false;
+            const auto entries = fs::directory_iterator(folder / "cache");
+            return std::any_of(begin(entries), end(entries),
+                               [](const auto& e) { return e.path().extension() == ".bake"; });
+        };
+        ProgramCall interrupted = bake();
+        interrupted.signal = SIGINT;
+        const auto tooLate = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+        interrupted.signalWhen = [&] { return partial() || std::chrono::steady_clock::now() > tooLate; };
+        expectOneLine(runProgram(interrupted), 130, "interrupted");
+        EXPECT_FALSE(fs::exists(folder / "a.png"));
+        ASSERT_TRUE(partial());
+        const auto rays = [&] {
+            expectSilence(runProgram(bake()));
+            EXPECT_FALSE(partial()) << "what is finished need not wait";
+            return Json::parse(bytesOf(folder / "r.json"))["work"]["rays_baked"].get<std::int64_t>();
+        };
+        const std::int64_t rest = rays();
+        const std::string resumed = bytesOf(folder / "a.png") + bytesOf(folder / "a.glb");
+        EXPECT_LT(rest, rays()) << "it began anew";
+        EXPECT_EQ(resumed, bytesOf(folder / "a.png") + bytesOf(folder / "a.glb"));
+        fs::remove(folder / "a.png");
+    }
 }
 
 TEST_F(FaultsSlow, AFullOrReadOnlyDiskIsOneLineAndTheOldFilesStay) {
