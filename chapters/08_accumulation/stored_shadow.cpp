@@ -140,6 +140,7 @@ GLuint StoredShadow::unoccluded(const Request& request) {
 void StoredShadow::count(const Request& request) {
     WorkCounters& work = request.frame.work;
     work["receivers"] += 1;
+    work["receivers_updated"] += 1;
     work["receivers_facing_away"] += !plan_.receives;
     work["receivers_unreached"] += plan_.receives && !plan_.reached;
     work["receivers_shadowed"] += plan_.reached;
