@@ -1,6 +1,6 @@
 #include "chapters/08_accumulation/seen_receivers.h"
 
-#include <cmath>
+#include <cstdint>
 
 #include "chapters/01_depth_from_light/shadow_options.h"
 #include "chapters/08_accumulation/other_surfaces.h"
@@ -16,9 +16,12 @@ glm::vec4 colourOf(std::size_t number) {
     return glm::vec4(float(number & 255), float(number >> 8 & 255), float(number >> 16), 255.0f) / 255.0f;
 }
 
-std::size_t numberOf(const glm::vec4& colour) {
-    const auto byte = [](float value) { return std::size_t(std::lround(255.0f * value)); };
-    return byte(colour.r) | byte(colour.g) << 8 | byte(colour.b) << 16;
+/// Of all pixels of the bound framebuffer. Bytes, which OpenGL ES reads too.
+std::vector<std::uint8_t> readColours(const glm::ivec2& size) {
+    std::vector<std::uint8_t> bytes(4 * std::size_t(size.x) * std::size_t(size.y));
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+    return bytes;
 }
 
 }  // namespace
@@ -35,8 +38,12 @@ const std::vector<bool>& SeenReceivers::find(const Frame& frame, const std::vect
     lit_ = lit;
     draw(frame, receivers, lit);
     seen_.assign(receivers.size(), false);
-    for (const glm::vec4& colour : ids_->read())
-        if (const std::size_t number = numberOf(colour)) seen_[number - 1] = true;
+    const std::vector<std::uint8_t> bytes = readColours(frame.size);
+    for (std::size_t i = 0; i < bytes.size(); i += 4) {
+        const std::size_t number =
+            std::size_t(bytes[i]) | std::size_t(bytes[i + 1]) << 8 | std::size_t(bytes[i + 2]) << 16;
+        if (number > 0) seen_[number - 1] = true;
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
     glViewport(0, 0, frame.size.x, frame.size.y);
     return seen_;
