@@ -137,8 +137,8 @@ GLuint StoredShadow::unoccluded(const Request& request) {
     return unoccluded_->id();
 }
 
-/// Behind the light's plane all is dark, whatever occluders cover there: nothing but what is drawn without
-/// need (clustersNotBetween off) covers anything, and would be counted.
+/// Behind the light's plane all is dark, whatever the mask holds there: which occluders are drawn
+/// (clustersNotBetween) would change the count, and nothing else.
 std::int64_t StoredShadow::mixedTexels(const Request& request) const {
     const std::vector<glm::vec2> sums = readSums();
     const glm::vec3 inFront = heightInFrontOf(request.lit, request.receiver);
