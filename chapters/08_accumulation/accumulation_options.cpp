@@ -64,8 +64,8 @@ void AccumulationOptions::declare(Parameters& parameters) {
     parameters.add(
         "masks", masks, {"logic-op", "stencil"},
         "how bits are set; stencil: a draw call for each bit, for OpenGL ES, which has no logic op");
-    for (const Skip* skip : {&receiversUnreached, &clustersNotBetween, &texelsUnreached, &texelsAgreeing,
-                             &trianglesOffBlock, &keptShadows, &keptTextures})
+    for (const Skip* skip : {&receiversUnseen, &receiversUnreached, &clustersNotBetween, &texelsUnreached,
+                             &texelsAgreeing, &trianglesOffBlock, &keptShadows, &keptTextures})
         parameters.skips().declare(*skip);
     declareMapSkips(parameters.skips());
 }

@@ -37,11 +37,13 @@ class Accumulation : public Chapter {
 
         // Pass 1: for each light and receiver the hard shadows of all light points, and their weighted sum.
         // Pass 2: the sums become light: what Lambert's formula gives times the share that is seen.
-        received_->update(frame, options_, outputOf(frame.view));
+        const bool sheet = frame.view == "textures" || frame.view == "hard-shadows";
+        received_->update(frame, options_, outputOf(frame.view),
+                          sheet ? ReceivedLight::For::sheets : ReceivedLight::For::picture);
 
         // Pass 3: the picture, each receiver with its texture of light.
         const PassScope scope(frame.passTimer, "picture");
-        if (frame.view == "textures" || frame.view == "hard-shadows") return drawSheet(frame);
+        if (sheet) return drawSheet(frame);
         picture_->draw(frame, options_, &*received_);
         // [end:passes]
     }

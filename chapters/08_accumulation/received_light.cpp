@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "chapters/08_accumulation/slow_frame.h"
 #include "chapters/08_accumulation/texture_room.h"
 #include "common/app/pass_timer.h"
@@ -27,6 +29,7 @@ void ReceivedLight::reset() {
     shadows_.clear();
     textures_.clear();
     composed_.clear();
+    seen_.forget();
 }
 
 void ReceivedLight::findReceivers(const Frame& frame, const AccumulationOptions& options) {
@@ -48,19 +51,41 @@ std::string ReceivedLight::composedKey(const AccumulationOptions& options, Outpu
     return key;
 }
 
-void ReceivedLight::update(const Frame& frame, const AccumulationOptions& options, Output output) {
+std::vector<bool> ReceivedLight::unseen(const Frame& frame, const std::vector<int>& lights) {
+    std::vector<bool> lit;
+    for (const Receiver& receiver : receivers_)
+        lit.push_back(std::any_of(lights.begin(), lights.end(), [&](int light) {
+            return receives(receiver, frame.scene.lights[std::size_t(light)]);
+        }));
+    const std::vector<bool>& seen = seen_.find(frame, receivers_, lit);
+    std::vector<bool> result;
+    for (std::size_t i = 0; i < receivers_.size(); ++i) result.push_back(lit[i] && !seen[i]);
+    return result;
+}
+
+void ReceivedLight::update(const Frame& frame, const AccumulationOptions& options, Output output, For shown) {
     findReceivers(frame, options);
     requireTextureRoom(options, frame.scene, receivers_);
     frame.work["occluders_drawn"] += 0;
     const bool visibility = output != Output::irradiance;
     std::vector<LitLight> lights;
+    std::vector<int> indices;
     for (auto& [index, shadows] : shadows_) {
         const Light& whole = frame.scene.lights[std::size_t(index)];
         lights.push_back({shadows, whole, options.lit(frame.scene, index)});
+        indices.push_back(index);
         if (visibility) break;  // of the first light
     }
+    std::vector<bool> leftOut(receivers_.size(), false);
+    if (shown == For::picture && frame.skips(receiversUnseen)) leftOut = unseen(frame, indices);
     const ProgressCallback slowProgress = slowFrameProgress(frame);
     for (std::size_t i = 0; i < receivers_.size(); ++i) {
+        if (leftOut[i]) {
+            // What its texture holds is of an earlier frame, and is filled again before it is seen.
+            frame.work["receivers"] += std::int64_t(lights.size());
+            frame.work["receivers_unseen"] += std::int64_t(lights.size());
+            continue;
+        }
         bool arrives = false;
         for (std::size_t k = 0; k < lights.size(); ++k) {
             const LitLight& light = lights[k];
@@ -128,7 +153,7 @@ void ReceivedLight::compose(const StoredShadow::Request& request, StoredShadow& 
 std::vector<Program*> ReceivedLight::programs() {
     std::vector<Program*> all = passes_.accumulate.programs(), masks = passes_.mask.programs();
     all.insert(all.end(), masks.begin(), masks.end());
-    all.push_back(&compose_);
+    all.insert(all.end(), {&seen_.program(), &compose_});
     return all;
 }
 

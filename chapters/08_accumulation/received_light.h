@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "chapters/08_accumulation/seen_receivers.h"
 #include "chapters/08_accumulation/stored_shadow.h"
 
 namespace penumbra {
@@ -21,8 +22,10 @@ class ReceivedLight {
     ReceivedLight();
     /// Forgets everything: another scene.
     void reset();
-    /// Finds the receivers (once), updates the shadows of each light on each, and composes.
-    void update(const Frame& frame, const AccumulationOptions& options, Output output);
+    /// Whose textures: those of the camera's picture (receiversUnseen), or of the sheets.
+    enum class For { picture, sheets };
+    /// Finds the receivers (once), updates the shadows of each light on each that is asked for, and composes.
+    void update(const Frame& frame, const AccumulationOptions& options, Output output, For shown);
 
     const std::vector<Receiver>& receivers() const { return receivers_; }
     /// Of receiver i; null: no light arrives there.
@@ -33,6 +36,8 @@ class ReceivedLight {
 
  private:
     void findReceivers(const Frame& frame, const AccumulationOptions& options);
+    /// Receivers that light arrives at and whose texture the picture does not look up.
+    std::vector<bool> unseen(const Frame& frame, const std::vector<int>& lights);
     void compose(const StoredShadow::Request& request, StoredShadow& shadow, Output output,
                  const TexelTarget& target);
     /// All that texture i is made from.
@@ -43,6 +48,7 @@ class ReceivedLight {
     std::map<int, std::vector<StoredShadow>> shadows_;  ///< by light, then receiver
     std::vector<std::optional<TexelTarget>> textures_;
     std::vector<std::string> composed_;
+    SeenReceivers seen_;
     ShadowPasses passes_;
     Program compose_;
     FullscreenTriangle triangle_;

@@ -37,8 +37,8 @@ struct ShadowPlan {
 /// The same for all texels.
 std::vector<glm::vec2> wholeTexture(const glm::ivec2& texels);
 
-/// `skips`: the three above. With all of them off every part but the light's own may shadow every texel: the
-/// same shadows.
+/// `skips`: the three above. With all of them off the plan's clusters are those of the whole scene, and every
+/// part may shadow every texel but the light's own, which OccluderPass leaves out: the same shadows.
 ShadowPlan planShadows(const Scene& scene, const Receiver& receiver, const Light& light,
                        const std::vector<LightPoint>& points, const Skips& skips);
 

@@ -137,9 +137,26 @@ GLuint StoredShadow::unoccluded(const Request& request) {
     return unoccluded_->id();
 }
 
+/// Behind the light's plane all is dark, whatever the mask holds there: which occluders are drawn
+/// (clustersNotBetween) would change the count, and nothing else.
+std::int64_t StoredShadow::mixedTexels(const Request& request) const {
+    const std::vector<glm::vec2> sums = readSums();
+    const glm::vec3 inFront = heightInFrontOf(request.lit, request.receiver);
+    const glm::ivec2 texels = request.receiver.texels;
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const glm::vec2 centre(float(i % std::size_t(texels.x)) + 0.5f,
+                               float(i / std::size_t(texels.x)) + 0.5f);
+        count += sums[i].x > 0.0f && sums[i].x < sums[i].y &&
+                 glm::dot(inFront, glm::vec3(centre / glm::vec2(texels), 1.0f)) > 0.0f;
+    }
+    return count;
+}
+
 void StoredShadow::count(const Request& request) {
     WorkCounters& work = request.frame.work;
     work["receivers"] += 1;
+    work["receivers_updated"] += 1;
     work["receivers_facing_away"] += !plan_.receives;
     work["receivers_unreached"] += plan_.receives && !plan_.reached;
     work["receivers_shadowed"] += plan_.reached;
@@ -148,11 +165,7 @@ void StoredShadow::count(const Request& request) {
     work["texels_in_reach"] += plan_.texelsInReach;
     // Once for each change: a timed frame does not read back.
     const std::string key = shadowKey_ + lightKey_;
-    if (plan_.reached && key != countedKey_) {
-        const std::vector<glm::vec2> sums = readSums();
-        mixed_ = std::count_if(sums.begin(), sums.end(),
-                               [](const glm::vec2& s) { return s.x > 0.0f && s.x < s.y; });
-    }
+    if (plan_.reached && key != countedKey_) mixed_ = mixedTexels(request);
     countedKey_ = key;
     work["texels_mixed"] += plan_.reached ? mixed_ : 0;
     if (masks_) work["texels_weighed"] += weighedEverywhere_ ? texels : mixed_;

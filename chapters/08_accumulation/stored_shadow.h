@@ -63,6 +63,7 @@ class StoredShadow {
     void addWeights(const Request& request, ShadowPasses& passes);
     void solve(const Request& request);
     void count(const Request& request);
+    std::int64_t mixedTexels(const Request& request) const;
     PointWeights weightsOf(const Request& request) const;
     void provideSums(const Request& request);
 

@@ -19,6 +19,9 @@ void main() {
     float tested = litByTexel(receiver, texelAt(receiver.str.xy), kernelBias(receiver, 0.0));
     // The light's emission is 1 here: facingIrradiance is the cosine at the light over r^2.
     float f = facingIrradiance(pWorld).r * max(dot(facingNormal(nWorld), directionToLight(pWorld)), 0.0);
+    // An area light shines to 90 degrees, and its maps hold 75: of what lies outside, this point knows nothing and has no say.
+    // Taken for lit, roofs and walls beside a window would be bright, whatever stands in between.
+    if (!onMap && uLightType == lightArea) f = 0.0;
     outSums = vec4((onMap ? tested : S) * f, f, 0.0, 0.0);
 }
 // [end:add-map]

@@ -63,6 +63,7 @@ class Rays {
     FloatImage draw(int samples, ChapterHarness& likeThis) {
         parameters_.set("samples", std::to_string(samples));
         FloatImage picture;
+        likeThis.skips().declare(raysFacingAway);
         Frame frame = likeThis.frame("visibility", pictureSize);
         frame.cpuPicture = &picture;
         rays_.render(frame);

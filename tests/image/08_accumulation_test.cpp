@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "chapters/08_accumulation/texture_room.h"
 #include "tests/image/chapter_harness.h"
@@ -144,6 +145,104 @@ TEST(Chapter08Error, ShadowMapsAreTheSameLight) {
                 truth.value, truth.mask, {.rmse = 0.0054, .absBias = 0.001});
 }
 
+// A window in the wall of a room, and close under it a sheet over the whole floor: nothing is lit. To the
+// floor along the wall the window shines at more than 75 degrees, which no map holds (0.08 of the floor was
+// lit, with maps of any size).
+TEST(Chapter08Error, WhatNoMapHoldsIsNotTakenForLit) {
+    const Scene scene = withAreaLight(floorScene()
+                                          .quad({-1, 0.05, 1}, {2, 0, 0}, {0, 0, -1.99})
+                                          .quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2})
+                                          .quad({-1, 0, -1}, {0, 1, 0}, {0, 0, 2})
+                                          .quad({1, 0, -1}, {0, 0, 2}, {0, 1, 0})
+                                          .take(),
+                                      squareLight({0, 0.5, -0.995}, {0, 0, 1}, 0.3));
+    ChapterHarness harness = harnessOf(scene, {{"method", "shadow-maps"}, {"samples", "16"}});
+    const glm::ivec2 size(64, 64);
+    const TruthImage truth = harness.truth("visibility", size);
+    // Half a map texel (7 cm) of light may leak in at the edge of the sheet that is next to the wall.
+    expectImage("08_accumulation/beside-the-window", harness.scalar("visibility", size), truth.value,
+                truth.mask, {.absBias = 0.02});
+}
+
+/// Mean of actual - exact where there is an exact answer.
+double signedBias(const FloatImage& actual, const TruthImage& truth) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < actual.values.size(); ++i) {
+        if (truth.mask.values[i] == 0.0f) continue;
+        sum += double(actual.values[i]) - double(truth.value.values[i]);
+        ++count;
+    }
+    return sum / count;
+}
+
+/// A square window with two crossed bars a centimetre in front of it, over a floor.
+constexpr double windowSide = 0.8, barWidth = 0.06, barShare = barWidth / windowSide;
+Scene barredWindow() {
+    const double half = 0.5 * windowSide, z = -1.39, y = 0.5;
+    return withAreaLight(floorScene()
+                             .quad({-0.5 * barWidth, y - half, z}, {barWidth, 0, 0}, {0, windowSide, 0})
+                             .quad({-half, y - 0.5 * barWidth, z}, {windowSide, 0, 0}, {0, barWidth, 0})
+                             .take(),
+                         squareLight({0, y, -1.4}, {0, 0, 1}, windowSide));
+}
+
+/// The picture's bias for each of `seeds` patterns of `points`, and what the points say: the share of the
+/// window that the bars hide, less the share of the points.
+struct WindowBias {
+    std::vector<double> measured, foretold;
+
+    double mean() const {
+        return std::accumulate(measured.begin(), measured.end(), 0.0) / double(measured.size());
+    }
+    double spread() const {
+        double sum = 0.0;
+        for (const double b : measured) sum += std::pow(b - mean(), 2.0);
+        return std::sqrt(sum / double(measured.size() - 1));
+    }
+};
+
+WindowBias windowBias(int points, int seeds) {
+    const Scene scene = barredWindow();
+    ChapterHarness harness =
+        harnessOf(scene, {{"samples", std::to_string(points)}, {"texels-per-metre", "16"}});
+    const glm::ivec2 size(32, 32);
+    const TruthImage truth = harness.truth("visibility", size);
+    WindowBias bias;
+    for (int seed = 0; seed < seeds; ++seed) {
+        harness.seed = std::uint32_t(seed);
+        bias.measured.push_back(signedBias(harness.scalar("visibility", size), truth));
+        double hidden = 0.0;
+        for (const LightPoint& p :
+             lightPoints(scene.lights[0], points, LightPattern::owenSobol, harness.seed))
+            hidden += std::min(std::abs(p.position.x), std::abs(p.position.y - 0.5)) < 0.5 * barWidth;
+        bias.foretold.push_back(2.0 * barShare - barShare * barShare - hidden / points);
+    }
+    return bias;
+}
+
+// What hides the same points from every texel errs the same way in all of them, so that a picture of any size
+// has a bias: the points' error on the bars. It is none of the method: over patterns it is zero, and with
+// more points it goes as quickly as any error of theirs, N^-3/4 (a factor of 8 here).
+TEST(Chapter08Error, BarsOnTheWindowBiasAPictureAndNotTheMethod) {
+    const int seeds = 48;
+    const WindowBias few = windowBias(16, seeds), many = windowBias(256, seeds);
+    EXPECT_LT(std::abs(few.mean()), 3.0 * few.spread() / std::sqrt(double(seeds)));
+    EXPECT_LT(std::abs(many.mean()), 3.0 * many.spread() / std::sqrt(double(seeds)));
+    EXPECT_GT(few.spread(), 4.0 * many.spread());
+    EXPECT_LT(many.spread(), 0.01);
+    double together = 0.0, alone = 0.0, error = 0.0;
+    for (std::size_t i = 0; i < few.measured.size(); ++i) {
+        together += few.measured[i] * few.foretold[i];
+        alone += few.foretold[i] * few.foretold[i];
+    }
+    for (std::size_t i = 0; i < few.measured.size(); ++i)
+        error += std::pow(few.measured[i] - together / alone * few.foretold[i], 2.0);
+    // Foretold by counting points on the bars, which knows nothing of the floor. What is left is that points
+    // near the floor weigh more than others.
+    EXPECT_NEAR(together / alone, 1.0, 0.2);
+    EXPECT_LT(error / seeds, 0.25 * few.spread() * few.spread());
+}
+
 // What is no receiver gets Lambert's formula from a shader, in float, cut at the horizon there: 1e-4 of the
 // largest, what the arc tangent of a shading language may be off by.
 TEST(Chapter08Error, TheShadersClosedFormIsLamberts) {
@@ -221,15 +320,63 @@ TEST(Chapter08Slow, SkippingChangesNoBit) {
 TEST(Chapter08Ways, WhatIsSkippedIsCounted) {
     ChapterHarness harness = receiverHarness();
     harness.scalar("visibility", receiverSize);
-    EXPECT_EQ(harness.work.at("receivers"), 2);  // the floor and the top of the triangle
-    EXPECT_EQ(harness.work.at("receivers_unreached"), 1);
+    EXPECT_EQ(harness.work.at("receivers"),
+              2);  // the floor and the top of the triangle, which is not in sight
+    EXPECT_EQ(harness.work.at("receivers_unseen"), 1);
+    EXPECT_EQ(harness.work.at("receivers_unreached"), 0);
     EXPECT_LT(harness.work.at("texels_mixed"), harness.work.at("texels_in_reach"));
     EXPECT_LT(harness.work.at("texels_in_reach"), harness.work.at("texels"));
     EXPECT_EQ(harness.work.at("occluders_drawn"), 64);  // the triangle, once for each point
+    harness.skips().switchOff("receivers-unseen");
+    harness.scalar("visibility", receiverSize);
+    EXPECT_EQ(harness.work.at("receivers_unreached"), 1);
     harness.skip = false;
     harness.scalar("visibility", receiverSize);
     EXPECT_GT(harness.work.at("occluders_drawn"), 64);
     EXPECT_EQ(harness.work.at("texels_in_reach"), harness.work.at("texels"));
+}
+
+// Texels behind the light's plane are dark, whatever is drawn there without need.
+TEST(Chapter08Ways, MixedTexelsAreTheSameWithoutSkips) {
+    const Scene scene = withAreaLight(floorScene()
+                                          .quad({-0.3, 0.2, -0.6}, {0.6, 0, 0}, {0, 0, -0.2})
+                                          .quad({-0.3, 0.2, 0.5}, {0.6, 0, 0}, {0, 0, -0.2})
+                                          .take(),
+                                      squareLight({0, 0.6, 0}, {0, 0, 1}, 0.4));
+    const auto mixed = [&](bool skip) {
+        ChapterHarness harness = harnessOf(scene, {{"samples", "16"}, {"texels-per-metre", "32"}});
+        harness.skip = skip;
+        harness.scalar("visibility", {32, 32});
+        return harness.work.at("texels_mixed");
+    };
+    EXPECT_GT(mixed(true), 0);
+    EXPECT_EQ(mixed(false), mixed(true));
+}
+
+// The camera walks around: what it did not see before is filled then, and kept.
+TEST(Chapter08Ways, UnseenReceiversAreFilledWhenTheyAreSeen) {
+    const Settings few{{"samples", "8"}, {"texels-per-metre", "20"}, {"others", "unshadowed"}};
+    ChapterHarness lazy = harnessOf(testScene("contact_panel"), few),
+                   whole = harnessOf(testScene("contact_panel"), few);
+    whole.skips().switchOff("receivers-unseen");
+    const glm::ivec2 size(96, 96);
+    const Camera first = lazy.camera;
+    Camera other = first;  // from the other side
+    const dvec3 centre = lazy.scene.bounds.centre();
+    other.position = {2.0 * centre.x - first.position.x, first.position.y, 2.0 * centre.z - first.position.z};
+    other.forward = {-first.forward.x, first.forward.y, -first.forward.z};
+    other.up = {-first.up.x, first.up.y, -first.up.z};
+    for (const Camera& camera : {first, other, first}) {
+        const bool again = lazy.work.count("receivers") > 0 && camera == first;
+        lazy.camera = whole.camera = camera;
+        const FloatImage picture = lazy.picture("irradiance", size, 3);
+        EXPECT_EQ(differing(picture, whole.picture("irradiance", size, 3)), 0u);
+        EXPECT_GT(lazy.work.at("receivers_unseen"), 0);
+        EXPECT_EQ(lazy.work.at("receivers"), whole.work.at("receivers"));
+        EXPECT_EQ(lazy.work.at("occluders_drawn") == 0, again);
+    }
+    lazy.picture("textures", size, 3);  // shows all of them
+    EXPECT_EQ(lazy.work.count("receivers_unseen"), 0u);
 }
 
 // Red is what has points that disagree; seen straight from above, a texel is a pixel. The triangle's own

@@ -101,7 +101,7 @@ class ChapterHarness {
                 .view = view,
                 .framebuffer = target_->framebuffer(),
                 .work = work,
-                .seed = 0,
+                .seed = seed,
                 .skips = skips_,
                 .cpuPicture = &cpuPicture_,
                 .progress = progress,
@@ -142,6 +142,7 @@ class ChapterHarness {
     bool skip = true;              ///< false: --skip-none
     bool renderMapsAgain = false;  ///< as a timed frame does
     ProgressCallback progress;     ///< of the frames; none: they are silent
+    std::uint32_t seed = 0;        ///< of every random pattern
     WorkCounters work;             ///< of the latest picture
     PassTimer* passTimer = nullptr;
     const Context* contextInstead = nullptr;  ///< what a frame says it is drawn with: one that can do less
