@@ -26,9 +26,9 @@ namespace {
 
 constexpr glm::ivec2 pictureSize(512, 512);
 
-/// Nothing of its own: the harness makes its frames.
+/// Nothing but the skips that the frames are asked for: the harness makes its frames.
 class NoChapter : public Chapter {
-    void declare(Parameters&) override {}
+    void declare(Parameters& parameters) override { declareOcclusionSkips(parameters); }
     void load(const Scene&, const Context*) override {}
     void render(const Frame&) override {}
     TruthImage truth(const TruthRequest&) override { return {}; }
