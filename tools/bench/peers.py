@@ -180,7 +180,7 @@ def figure(quantity, scene, curves):
 
 
 def page(results):
-    lines, figures = [INTRODUCTION.strip(), "", versions(results), ""], []
+    lines, figures = ["## Other programs", "", INTRODUCTION.strip(), "", versions(results), ""], []
     for (quantity, scene), curves in groups(results):
         figures.append(figure(quantity, scene, curves))
         lines += [*groupLines(quantity, scene, curves), figures[-1].markdown(), ""]
@@ -193,8 +193,6 @@ def versions(results):
 
 
 INTRODUCTION = """
-## Other programs
-
 Blender's path tracer Cycles and MeshLab's filter "Ambient Occlusion" estimate what chapters here estimate. `./run bench
 --peers` installs them from Debian's packages, exports the scenes (PLY, checked by counts and bounds in the program that
 reads them), and measures both with the same exact answer, two threads, no denoiser.
