@@ -173,8 +173,13 @@ def groupLines(quantity, scene, curves):
 
 
 def figure(quantity, scene, curves):
-    drawn = [Curve(technique, [point[:2] for point in curveOf(results, "cpu_ms").points], dashed=isPeer(technique))
-             for technique, results in curves.items()]
+    drawn = []
+    for look, (technique, results) in enumerate(curves.items()):
+        curve = curveOf(results, "cpu_ms")
+        if kept := [point[:2] for point in curve.drawn()]:
+            drawn.append(Curve(technique, kept, dashed=isPeer(technique), look=look))
+        if exact := curve.exact():
+            drawn.append(Curve(f"{technique}: exact", [(exact[0], None)], dashed=True, look=look))
     return Figure(f"peers_{quantity.replace(' ', '_')}_{scene}", f"{scene}: {quantity}; dashed: other programs",
                   "ms of CPU", "root mean square error", drawn, True, scene, quantity)
 
