@@ -35,6 +35,8 @@ class Table:
 
 def parse(argument, where):
     first, *lines = argument.split("\n")
+    if COLUMN.match(first.strip()):  # a table without a name begins with its columns
+        first, lines = "", [first, *lines]
     table = Table(first.strip())
     for line in (line.strip() for line in lines):
         if not line:

@@ -20,17 +20,18 @@ ShadowRay shadowRay(const Hit& hit, const Light& light, const LightSample& sampl
 }
 // [end:rounded-start]
 
+bool facesAway(const Hit& hit, const LightSample& sample) {
+    return glm::dot(hit.shadingNormal, sample.toLight) <= 0.0;
+}
+
 void castRange(const RayTracer& tracer, const Hit& hit, const Light& light,
                std::span<const LightSample> samples, const ShadowRayOptions& options,
                std::span<std::uint8_t> seen, RayCounts& counts) {
     std::vector<ShadowRay> rays;
     std::vector<std::size_t> indices;
-    const auto facesAway = [&](std::size_t i) {
-        return glm::dot(hit.shadingNormal, samples[i].toLight) <= 0.0;
-    };
     for (std::size_t i = 0; i < samples.size(); ++i) {
         seen[i] = 0;
-        if (options.skip && facesAway(i)) {
+        if (options.skip && facesAway(hit, samples[i])) {
             ++counts.savedFacingAway;
             continue;
         }
@@ -41,7 +42,7 @@ void castRange(const RayTracer& tracer, const Hit& hit, const Light& light,
     tracer.occluded(rays, blocked, light.part);
     // Facing away is not seen, traced or not: --adaptive asks whether all agree.
     for (std::size_t k = 0; k < rays.size(); ++k)
-        seen[indices[k]] = blocked[k] || facesAway(indices[k]) ? 0 : 1;
+        seen[indices[k]] = blocked[k] || facesAway(hit, samples[indices[k]]) ? 0 : 1;
     counts.traced += std::int64_t(rays.size());
 }
 
@@ -51,12 +52,15 @@ void castRange(const RayTracer& tracer, const Hit& hit, const Light& light,
 void castShadowRays(const RayTracer& tracer, const Hit& hit, const Light& light,
                     std::span<const LightSample> samples, const ShadowRayOptions& options,
                     std::span<std::uint8_t> seen, RayCounts& counts) {
-    const std::size_t probe = options.adaptive ? std::min<std::size_t>(16, samples.size()) : samples.size();
+    // A sample below the horizon is multiplied by 0 and has no say: where the light rises or sets, the first
+    // 16 may all lie below, and "nothing of it is seen" would be a guess about a light that nobody looked at.
+    const std::size_t enough = options.adaptive ? 16 : samples.size();
+    std::size_t probe = 0, asked = 0;
+    while (probe < samples.size() && asked < enough) asked += facesAway(hit, samples[probe++]) ? 0 : 1;
     castRange(tracer, hit, light, samples.first(probe), options, seen.first(probe), counts);
-    const bool agree =
-        std::all_of(seen.begin(), seen.begin() + long(probe), [&](auto s) { return s == seen[0]; });
-    if (agree && probe < samples.size()) {
-        std::fill(seen.begin() + long(probe), seen.end(), seen[0]);
+    const auto answered = std::size_t(std::count(seen.begin(), seen.begin() + long(probe), 1));
+    if (probe < samples.size() && (answered == 0 || answered == asked)) {
+        std::fill(seen.begin() + long(probe), seen.end(), answered == 0 ? 0 : 1);
         counts.savedByAgreement += std::int64_t(samples.size() - probe);
     } else {
         castRange(tracer, hit, light, samples.subspan(probe), options, seen.subspan(probe), counts);

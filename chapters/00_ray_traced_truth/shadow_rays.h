@@ -31,8 +31,9 @@ struct RayCounts {
 };
 
 /// S(x, l): seen[i] becomes 1 where nothing stands between the hit and samples[i], else 0. With `adaptive`,
-/// the first 16 samples of an area light are asked, and the others only if those disagree: cheap and nearly
-/// right. A penumbra of which 16 rays see nothing is missed, and with it up to a sixteenth of the light.
+/// the first 16 samples of an area light that are above the surface's horizon are asked, and the others only
+/// if those disagree: cheap and nearly right. A penumbra of which 16 rays see nothing is missed, and with it
+/// up to a sixteenth of the light.
 void castShadowRays(const RayTracer& tracer, const Hit& hit, const Light& light,
                     std::span<const LightSample> samples, const ShadowRayOptions& options,
                     std::span<std::uint8_t> seen, RayCounts& counts);

@@ -88,9 +88,8 @@ class Branching : public Chapter {
         const glm::dmat4 seen = clipFromWorld(frame.camera, double(frame.size.x) / frame.size.y);
         std::string state = parameters_->toJson(true) + std::to_string(frame.seed);
         state.append(reinterpret_cast<const char*>(&seen), sizeof seen);
-        const PixelCounts& counted = count_->count(frame, state, [&] {
-            frame.gpu->drawShaded(prepared(4, frame, sight), allClusters(frame.scene));
-        });
+        const PixelCounts& counted =
+            count_->count(frame, state, [&]() -> Program& { return prepared(4, frame, sight); });
         branching_.count(counted, frame.work);
     }
 

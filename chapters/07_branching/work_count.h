@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/app/chapter.h"
+#include "common/gl/program.h"
 #include "common/gl/render_target.h"
 
 namespace penumbra {
@@ -18,10 +19,13 @@ struct PixelCounts {
 
 class WorkCount {
  public:
-    /// Draws with `draw` (red: receiving, green: looked, blue: searched) into a target of its own and counts,
-    /// unless nothing in `state` has changed since the last time: so that a timed frame is not counted again.
-    /// Leaves frame.framebuffer bound.
-    const PixelCounts& count(const Frame& frame, const std::string& state, const std::function<void()>& draw);
+    /// Draws the scene with the program that `prepare` returns (red: receiving, green: looked, blue:
+    /// searched) into a target of its own and counts, unless nothing in `state` has changed since the last
+    /// time: so that a timed frame is not counted again. `prepare` may draw maps elsewhere: it is called
+    /// before the target is bound, or the flags would land in the picture and all counts be 0. Leaves
+    /// frame.framebuffer bound.
+    const PixelCounts& count(const Frame& frame, const std::string& state,
+                             const std::function<Program&()>& prepare);
 
  private:
     std::unique_ptr<RenderTarget> target_;

@@ -63,7 +63,7 @@ class Rays {
     FloatImage draw(int samples, ChapterHarness& likeThis) {
         parameters_.set("samples", std::to_string(samples));
         FloatImage picture;
-        likeThis.skips().declare(raysFacingAway);
+        likeThis.skips().declare(raysFacingAway);  // the frame is chapter 08's, and chapter 00 asks it
         Frame frame = likeThis.frame("visibility", pictureSize);
         frame.cpuPicture = &picture;
         rays_.render(frame);

@@ -29,7 +29,7 @@ namespace {
 
 constexpr glm::ivec2 pictureSize(512, 512);
 
-/// Nothing of its own: the harness makes its frames, with the skips that they are asked for.
+/// Nothing but the skips that the frames are asked for: the harness makes its frames.
 class NoChapter : public Chapter {
     void declare(Parameters& parameters) override { declareOcclusionSkips(parameters); }
     void load(const Scene&, const Context*) override {}

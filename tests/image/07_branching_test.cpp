@@ -97,6 +97,19 @@ TEST(Chapter07, MostOfThePictureIsSkipped) {
     EXPECT_EQ(harness.work.at("visibility_tests"), 64 * work.at("pixels_receiving"));
 }
 
+// Building the minimum-maximum map binds a framebuffer: in the middle of counting, the flags landed in the
+// picture, and a frame that skips nothing said that it had done nothing.
+TEST(Work, IsCountedInAFrameThatSkipsNothingToo) {
+    ChapterHarness all(chapter(), testScene("contact")), none(chapter(), testScene("contact"));
+    none.skip = false;
+    EXPECT_EQ(picture(all, {}).values, picture(none, {}).values);
+    for (const char* counter :
+         {"pixels_receiving", "pixels_supersampled", "min_max_lookups", "visibility_tests"}) {
+        EXPECT_GT(all.work.at(counter), 0) << counter;
+        EXPECT_EQ(none.work.at(counter), all.work.at(counter)) << counter;
+    }
+}
+
 TEST(Chapter07, RedPixelsAreTheSupersampledOnes) {
     ChapterHarness harness(chapter(), testScene("contact"));
     const FloatImage work = harness.picture("work", size, 3);

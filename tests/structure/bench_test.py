@@ -1,6 +1,5 @@
 """./run bench: what is measured is kept and merged, an interrupted run goes on, curves say what is cheapest, and the page is
 what its results make."""
-import contextlib
 import io
 import json
 import re
@@ -8,78 +7,16 @@ import unittest
 import xml.etree.ElementTree as xml
 from unittest import mock
 
+from bench_tree import PROGRAM, BenchTest, point, result
 from temporary_tree import ROOT, TreeTest
 
-import build
 import png
-import reports
-from bench import bounds, browse, command, curves, document, error, estimates, files, raster, results, runner, sections
+from bench import browse, curves, document, error, estimates, files, raster, results, runner, sections
 from bench import store, svg, techniques, work
-from bench.figures import Curve, Figure, Line, Mark, layOut
 from bench import measuring as measuring_module
+from bench.figures import Curve, Figure, Line, Mark, layOut
 from bench.measuring import Measuring
-from bench.points import Point
 from bench.progress import Progress
-
-# Stands for a chapter: error and time follow from --samples, and --samples 13 fails. Each start is a line of `started`.
-PROGRAM = """#!/usr/bin/env python3
-import json, sys
-flags = sys.argv[1:]
-value = lambda name: flags[flags.index("--" + name) + 1]
-open("started", "a").write(" ".join(flags) + "\\n")
-samples, runs = int(value("samples")), int(value("runs"))
-if samples == 13:
-    print("first line", file=sys.stderr)
-    sys.exit("no luck with thirteen")
-ms = {"median": 2.0 * samples, "min": 1.0 * samples, "max": 9.0, "runs": runs}
-report = {"time": {"setup_ms": 5.0, "frame_ms": ms, "frame_cpu_ms": ms, "passes_ms": {"bake": {"median": 7.0}}},
-          "work": {"shadow_rays": 10 * samples, "pixels_receiving": 10}, "renderer": "fake GL", "backend": "none"}
-if "--compare-truth" in flags:
-    report["error"] = {"quantity": "visibility", "truth": "ray traced, 512 rays a pixel, standard error 1.0e-03",
-                       "against": "area light", "pixels": 9, "rmse": 0.5 / samples, "mean_abs": 0, "max_abs": 1, "bias": 0}
-    report["error_area_light"] = {"against": "area light", "rmse": 0.3, "max_abs": 1, "bias": 0.1}
-open(value("report"), "w").write(json.dumps(report))
-"""
-
-
-def point(samples, technique="00 rays", scene="knot", **more):
-    return Point("error", scene, technique, "00_a", "samples", samples, ("--samples", str(samples)), "area", **more)
-
-
-def result(technique, ms, rmse, scene="knot", quantity="area", **more):
-    figures = {"rmse": rmse, "max_abs": 1.0, "bias": 0.0, **more}
-    return {"id": f"{technique}{ms}{scene}", "section": "error", "scene": scene, "technique": technique, "chapter": "00_a",
-            "axis": "samples", "value": 4, "quantity": quantity, "flags": [], "wall_ms": ms, "wall_min_ms": ms, "cpu_ms": ms,
-            "cpu_min_ms": ms, "once_ms": 0.0, "setup_ms": 1.0, "memory_mb": 9.0, "memory_with_truth": False, "passes": 1,
-            "runs": 3, "work": {"shadow_rays": 40, "pixels_receiving": 10}, "error": figures, "area_light": None,
-            "renderer": "fake GL"}
-
-
-class BenchTest(TreeTest):
-    def setUp(self):
-        super().setUp()
-        self.write("build/release/bin/00_a", PROGRAM, executable=True)
-        self.write("shaders/a.glsl", "void main() {}")
-        self.write("tools/bench/browse.html", (ROOT / "tools" / "bench" / "browse.html").read_text())
-        patched = mock.patch.object(build, "ROOT", self.root)
-        patched.start()
-        self.addCleanup(patched.stop)
-        self.forget()
-
-    @staticmethod
-    def forget():
-        """What this process remembers of files that a build would have changed."""
-        reports.fileDigest.cache_clear()
-        reports.inputsDigest.cache_clear()
-
-    def measure(self, points, quick=False):
-        measuring = Measuring(points, quick, Progress(io.StringIO()))
-        measuring.run()
-        return measuring
-
-    def started(self):
-        return self.read("started").splitlines() if (self.root / "started").exists() else []
-
 
 class MeasuringTest(BenchTest):
     def testRepeatsLieInterleavedAndTheTruthIsAskedForOnce(self):
@@ -99,6 +36,22 @@ class MeasuringTest(BenchTest):
         self.assertEqual(len(self.started()), 2)
         self.measure([point(2), point(4)])
         self.assertEqual(len(self.started()), 6, "the next run goes on")
+
+    def testAMachineTooSlowForOnePassIsToldSoAndNothingIsLeftUnmeasured(self):
+        said = io.StringIO()
+        with mock.patch.dict(measuring_module.BUDGET_S, {False: 0}):
+            measuring = Measuring([point(2), point(4)], False, Progress(said))
+            measuring.run()
+        self.assertIn("one pass over all points took 0:0", said.getvalue())
+        self.assertIn("2 repeats are left out", said.getvalue())
+        self.assertEqual([found["passes"] for found in measuring.results()], [1, 1])
+
+    def testARepeatThatWouldEndTooLateIsNotBegun(self):
+        long, short = {"wall_ms": 900.0, "setup_ms": 60e3}, {"wall_ms": 1.0}
+        measuring = Measuring([point(2), point(4)], False, Progress(io.StringIO()))
+        measuring.samples = {point(2): [long], point(4): [short]}
+        with mock.patch.dict(measuring_module.BUDGET_S, {False: 30}):
+            self.assertEqual([measuring.overAfter(p) for p in (point(2), point(4))], [True, False])
 
     def testAResultHoldsWhatTheReportsSay(self):
         found = self.measure([point(4, once=("bake",))]).results()[0]
@@ -179,6 +132,8 @@ class CurvesTest(unittest.TestCase):
         self.assertAlmostEqual(curves.slope([(1, 1), (4, 0.5), (16, 0.25)]), -0.5)
         self.assertIsNone(curves.slope([(1, 1), (2, 2)]))
         self.assertIsNone(curves.slope([(1, 1), (1, 2), (1, 3)]))
+        self.assertIsNone(curves.slope([(1, 1), (1.2, 0.2), (1.4, 0.1)]), "as quick: its slope would be noise's")
+        self.assertEqual([curves.shownSlope(v) for v in (None, -0.001, -0.756)], ["–", "0.00", "-0.76"])
 
     def testTheFrontHasNothingQuickerAndAsRight(self):
         a, b = self.curve((1, 0.1), (10, 0.01)), self.curve((2, 0.1), (5, 0.05), (20, 0.02), technique="b")
@@ -191,16 +146,26 @@ class PageTest(BenchTest):
                result("00 rays", 10.0, 0.4, "courtyard"), result("00 rays", 90.0, 0.2, "courtyard")]
 
     def levels(self, results_):
-        return {cells[1]: cells for cells in
-                (error.levelRow(estimates.curvesOf(results_, "knot", "area"), "knot", "area", at) for at in error.LEVELS)}
+        rows = error.sceneRows(estimates.curvesOf(results_, "knot", "area"), "knot", "area")
+        return {level: cells for cells in rows for level in cells[1].split(", ")}
 
     def testNamesTheCheapestTheRunnerUpAndTheAlternative(self):
         rows = self.levels(self.RESULTS)
         self.assertEqual(rows["0.01"], ["knot", "0.01", "08 mask", "15.8", "00 rays", "6.3", "100", "6.3"])
 
     def testSaysWhereNobodyComes(self):
-        row = error.levelRow(estimates.curvesOf(self.RESULTS, "courtyard", "area"), "courtyard", "area", 0.1)
-        self.assertEqual(row[2], "none; 00 rays comes to 0.2")
+        rows = error.sceneRows(estimates.curvesOf(self.RESULTS, "courtyard", "area"), "courtyard", "area")
+        self.assertEqual(rows, [["courtyard", "0.1, 0.03, 0.01, 0.003",
+                                 "none; 00 rays comes to 0.2, hardly any of it bias", "90", *4 * "–"]])
+        leaking = estimates.curvesOf([result("00 rays", 9.0, 0.5, bias=0.3)], "knot", "area")
+        self.assertEqual(error.sceneRows(leaking, "knot", "area")[0][2], "none; 00 rays comes to 0.5, bias +0.3")
+
+    def testWhatIsBetterByLuckIsNotReached(self):
+        lucky = [result("11 vertices", 1.0, 0.08), result("11 vertices", 2.0, 0.13), result("11 vertices", 3.0, 0.12)]
+        every = estimates.curvesOf(lucky, "knot", "area")
+        self.assertEqual(estimates.reaching(every, 0.1), [])
+        self.assertEqual([ms for ms, _, _ in estimates.reaching(every, 0.2)], [1.0])
+        self.assertAlmostEqual(estimates.reaching(every, 0.121)[0][0], 2.9, places=1)
 
     def testDoesNotCompareBelowTheNoiseOfTheExactAnswer(self):
         noisy = [result("00 rays", 10.0, 0.1, standard_error=0.01), result("00 rays", 100.0, 0.0105, standard_error=0.01)]
@@ -283,102 +248,6 @@ class FigureTest(TreeTest):
         self.assertEqual(at((x0 + x1) / 2, (y0 + y1) / 2), bytes.fromhex("4477aa"), "half way between two points")
         marks = [part for part in parts if isinstance(part, Mark)]
         self.assertEqual([at(mark.x, mark.y) == b"\xff\xff\xff" for mark in marks[:3]], [True, False, True])
-
-
-class BoundsTest(BenchTest):
-    def check(self, entries, said=""):
-        self.write("tools/bench/bounds.json", json.dumps(entries))
-        self.write("build/release/bin/a_bench", f"#!/usr/bin/env python3\nprint({said!r})\n", executable=True)
-        out = io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
-            return bounds.check(), out.getvalue()
-
-    def entry(self, **more):
-        return {"name": "n", "what": "w", "issue": 3, "program": "a_bench 7", "find": r"^a (?P<over>\S+) (?P<under>\S+)$",
-                **more}
-
-    def testTheWorstOfSeveralLinesCounts(self):
-        said = "a 6 2\nb 1 1\na 10 2"
-        self.assertEqual(self.check([self.entry(at_least=3)], said)[0], 0)
-        status, printed = self.check([self.entry(at_least=4)], said)
-        self.assertEqual(status, 1)
-        self.assertIn("FALLS SHORT", printed)
-        self.assertIn("0 of 1 hold; short: n", printed)
-        self.assertEqual(self.check([self.entry(at_most=5)], said)[0], 0)
-        self.assertEqual(self.check([self.entry(at_most=4.9)], said)[0], 1)
-
-    def testARatioThatIsNotPrintedIsNoRatio(self):
-        status, printed = self.check([self.entry(at_least=0)], "nothing")
-        self.assertEqual(status, 1)
-        self.assertIn("printed nothing like", printed)
-
-    def testPointsAreDivided(self):
-        entry = {"name": "n", "what": "w", "issue": 3, "over": point(8).id, "under": point(4).id, "figure": "cpu_ms"}
-        with mock.patch.object(error, "points", lambda quick: [point(4), point(8)]):
-            self.assertEqual(self.check([{**entry, "at_most": 2}])[0], 0)
-            self.assertEqual(self.check([{**entry, "at_most": 1.9}])[0], 1)
-            self.assertIn("mend tools/bench/bounds.json", self.check([{**entry, "over": "x", "at_most": 1}])[1])
-
-    def testTheProjectsBoundsNameProgramsAndPointsThatExist(self):
-        with mock.patch.object(build, "ROOT", ROOT):
-            known = {p.id for section in sections.ALL for p in section.points(False)}
-            for bound in bounds.load():
-                with self.subTest(bound["name"]):
-                    self.assertEqual(len({"at_least", "at_most"} & set(bound)), 1)
-                    if "program" in bound:
-                        name = bound["program"].split()[0]
-                        self.assertTrue((ROOT / "tests" / "bench" / f"{name}.cpp").is_file())
-                        self.assertRegex(bound["find"], r"\(\?P<(ratio|over)>")
-                    else:
-                        self.assertLessEqual({bound["over"], bound["under"]}, known)
-
-
-class CommandTest(BenchTest):
-    def run_(self, *words, points=(point(2), point(4))):
-        said = io.StringIO()
-        with mock.patch.object(error, "points", lambda quick: list(points)), contextlib.redirect_stdout(said), \
-                contextlib.redirect_stderr(said), mock.patch.object(sections, "ALL", [error]):
-            return command.run(command.parse(list(words))), said.getvalue()
-
-    def testAWholeRunWritesThePage(self):
-        self.write("docs/images/x", "")
-        status, said = self.run_()
-        self.assertEqual(status, 0, said)
-        self.assertEqual(document.stale(self.root), "")
-        for path in ("out/benchmark.html", "out/bench/results.csv", "out/bench/results.json",
-                     "out/bench/error_area_knot.png", "out/bench/error_area_knot.svg"):
-            self.assertTrue((self.root / path).is_file(), path)
-
-    def testAQuickOrPartialRunDoesNot(self):
-        self.assertEqual(self.run_("--quick")[0], 0)
-        self.assertFalse((self.root / "docs/benchmark.md").exists())
-        other = point(4, scene="contact")
-        status, said = self.run_("--scene", "knot", points=(point(2), other))
-        self.assertIn("1 points are not measured yet", said)
-        self.assertFalse((self.root / "docs/benchmark.md").exists())
-
-    def testAFailureFailsTheRun(self):
-        status, said = self.run_(points=(point(2), point(13)))
-        self.assertEqual(status, 1)
-        self.assertIn("failed: error/knot/area/00 rays/samples=13: no luck with thirteen", said)
-        self.assertTrue((self.root / "out/benchmark.html").is_file())
-
-    def testAnInterruptSaysThatTheSameCommandGoesOn(self):
-        with mock.patch.object(runner, "measure", side_effect=KeyboardInterrupt):
-            status, said = self.run_()
-        self.assertEqual(status, 130)
-        self.assertIn("the same command goes on from there", said)
-
-    def testNothingToMeasureIsAWrongCommandLine(self):
-        status, said = self.run_("--quick", points=())
-        self.assertEqual(status, 2)
-        self.assertIn("in --quick: leave it out", said)
-
-    def testAWrongCommandLine(self):
-        for words in (["--section", "none"], ["--scene", "none"], ["--fast"]):
-            with self.subTest(words), contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit) as left:
-                command.parse(words)
-            self.assertEqual(left.exception.code, 2)
 
 
 class CommittedPageTest(unittest.TestCase):

@@ -7,6 +7,7 @@ from temporary_tree import TreeTest
 
 import pages
 import png
+import tables
 
 MAIN = """int main() {
     // [begin:outer]
@@ -138,6 +139,10 @@ class RefreshTest(TreeTest):
         self.assertIn("```\n<!-- code: shown as it is -->\n```", page)
         self.assertIn("| [00_a](docs/00_a.md) | The idea. | V | a ray |", self.read("README.md"))
         self.assertIn("| `cmake` | Configures it. |", self.read("README.md"))
+
+    def testATableWithoutANameKeepsItsFirstColumn(self):
+        table = tables.parse("column samples = label\ncolumn RMSE = error.rmse .4f\nrow 4 | 00_a --samples 4", "here")
+        self.assertEqual(([column.heading for column in table.columns], table.name), (["samples", "RMSE"], ""))
 
     def testRefreshingTwiceChangesNothing(self):
         self.refreshed()

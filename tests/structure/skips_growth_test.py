@@ -8,7 +8,7 @@ from unittest import mock
 
 from temporary_tree import TreeTest
 
-from bench import exr, growth, growth_reasons, many_lights, skips
+from bench import exr, growth, growth_fit, growth_points, growth_reasons, many_lights, skips
 
 
 def exrBytes(size, channels, compression=3):
@@ -111,13 +111,13 @@ class GrowthTest(unittest.TestCase):
     def testFindsTheExponentOfTheUpperHalf(self):
         law = lambda p: [(x, 1.0 + x ** p) for x in (1e3, 1e4, 1e5, 1e6, 1e7, 1e8)]  # noqa: E731
         for p in (0.5, 1.0, 1.3):
-            self.assertAlmostEqual(growth.exponent(law(p)), p, places=2)
-        self.assertAlmostEqual(growth.exponent([(1, 4), (10, 4)]), 0.0)
-        self.assertIsNone(growth.exponent([(1, 4)]))
-        self.assertIsNone(growth.exponent([(1, 0), (2, 0)]))
+            self.assertAlmostEqual(growth_fit.exponent(law(p)), p, places=2)
+        self.assertAlmostEqual(growth_fit.exponent([(1, 4), (10, 4)]), 0.0)
+        self.assertIsNone(growth_fit.exponent([(1, 4)]))
+        self.assertIsNone(growth_fit.exponent([(1, 0), (2, 0)]))
 
     def page(self, power):
-        one = next(g for g in growth.GROWTHS if (g.axis, g.technique) == ("triangles", "03 one map"))
+        one = next(g for g in growth_points.GROWTHS if (g.axis, g.technique) == ("triangles", "03 one map"))
         return growth.page([result(p, cpu_min_ms=1e-4 * p.value ** power) for p in one.points(False)])
 
     def testWorseThanLinearIsMarkedAndNamed(self):
@@ -130,13 +130,32 @@ class GrowthTest(unittest.TestCase):
         self.assertIn("Nothing grows worse than linearly", text)
         self.assertIn("| 1.05 |", text)
 
+    def testTheLinearGuideGoesThroughTheHighestEndAndStaysInTheFigure(self):
+        curves = [growth.Curve("a", [(1, 10.0), (100, 20.0)]), growth.Curve("b", [(1, 50.0), (100, 4000.0)])]
+        guide = growth.linear(curves)
+        (x0, y0), end = guide.points
+        self.assertEqual((end, guide.guide), ((100, 4000.0), True))
+        self.assertAlmostEqual(y0 / x0, 40.0)
+        self.assertGreaterEqual(y0, 10.0)
+        self.assertGreaterEqual(x0, 1)
+
+    def testATechniqueLooksAlikeInEveryFigure(self):
+        results = [result(p, cpu_min_ms=p.value) for g in growth_points.GROWTHS for p in g.points(False)]
+        looks = {}
+        for figure in growth.page(results)[1]:
+            for curve in figure.curves:
+                if not curve.guide:
+                    looks.setdefault(curve.label.partition(", ")[0], set()).add(curve.look)
+        looks.pop("10 maps")  # which is also how the memory of "10 maps, at vertices" begins
+        self.assertEqual({len(found) for found in looks.values()}, {1})
+
     def testEveryGrowthHasAReasonAndPointsOfItsOwn(self):
-        for g in growth.GROWTHS:
+        for g in growth_points.GROWTHS:
             self.assertTrue((g.axis, g.technique) in growth_reasons.REASONS or g.axis in growth_reasons.REASONS, g)
         for quick in (True, False):
             ids = [point.id for point in growth.points(quick)]
             self.assertEqual(len(ids), len(set(ids)))
-        known = {(g.axis, g.technique) for g in growth.GROWTHS} | {g.axis for g in growth.GROWTHS}
+        known = {(g.axis, g.technique) for g in growth_points.GROWTHS} | {g.axis for g in growth_points.GROWTHS}
         self.assertLessEqual(set(growth_reasons.REASONS), known, "a reason for what is not measured")
 
     def testAsManyLightsAsWanted(self):
@@ -152,10 +171,10 @@ class SceneTest(TreeTest):
     def testASceneThatCannotBeMadeSaysWhy(self):
         self.write("build/release/bin/make_assets", "#!/bin/sh\necho make_assets: the disk is full >&2\nexit 1\n", True)
         point = next(p for p in growth.points(True) if p.axis == "triangles")
-        with mock.patch.object(growth.build, "ROOT", self.root), \
-                mock.patch.object(growth.build, "folder", lambda _: self.root / "build/release"):
-            with self.assertRaisesRegex(growth.PointError, "knot_1000.glb: make_assets: the disk is full"):
-                growth.provideScene(point)
+        with mock.patch.object(growth_points.build, "ROOT", self.root), \
+                mock.patch.object(growth_points.build, "folder", lambda _: self.root / "build/release"):
+            with self.assertRaisesRegex(growth_points.PointError, "knot_1000.glb: make_assets: the disk is full"):
+                growth_points.provideScene(point)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,8 @@
     ./run bench --check             compare ratios with tools/bench/bounds.json; exit 1 and say which fell short
 
 What was measured is kept in out/bench/results.jsonl and measured again only when a program, shader or asset has changed: a
-run that was interrupted goes on where it was. docs/benchmark.md is written when every point of every section is there.
+run that was interrupted goes on where it was. docs/benchmark.md is written when every point of every section is there; what
+it says of other programs stays, with its own date, until --peers measures them again.
 """
 import argparse
 import contextlib
@@ -16,7 +17,7 @@ import sys
 import time
 
 import build
-from bench import bounds, document, files, results, sections, store
+from bench import bounds, document, files, held, results, sections, store
 from bench.measuring import Measuring
 from bench.progress import Progress, clock
 
@@ -43,7 +44,7 @@ def chosenSections(options):
     names = [*(options.section or []), *(["peers"] if options.peers else [])]
     if names:
         return [section for section in sections.ALL if section.NAME in names]
-    return [section for section in sections.ALL if not getattr(section, "ON_REQUEST", False)]
+    return [section for section in sections.ALL if not held.onRequest(section)]
 
 
 def pointsOf(options):
@@ -52,36 +53,19 @@ def pointsOf(options):
     return [point for point in dict.fromkeys(every) if not options.scene or point.scene in options.scene]
 
 
-def everything():
-    """(results of all points that are measured, how many are missing for the page). What is only made on request may be."""
-    held, found, missing = store.load(), [], 0
-    for section in sections.ALL:
-        for point in dict.fromkeys(section.points(False)):
-            samples = held.get((point.id, store.digest(point)))
-            if samples:
-                found.append(results.merge(point, samples))
-            elif not getattr(section, "ON_REQUEST", False):
-                missing += 1
-    return found, missing
-
-
-def writeFiles(found):
-    machine = results.machine(found)
-    source = files.jsonOf(machine, found)
-    page, figures = document.pageOf(*document.read(source), source)
-    return files.write(machine, found, page, figures)
-
-
 def writeUp(options, measured):
     """The files of what was asked for, and docs/ when nothing is missing there."""
-    print(f"{writeFiles(measured)}: {len(measured)} points")
+    machine = results.machine(measured)
+    page, figures = document.made(machine, measured)
+    print(f"{files.write(machine, measured, page, figures)}: {len(measured)} points")
     if options.quick:
         return
-    found, missing = everything()
-    if missing:
+    machine, found, missing = held.content(held.page())
+    if missing and not (machine and any(map(held.onRequest, chosenSections(options)))):
         print(f"docs/benchmark.md stays as it is: {missing} points are not measured yet (./run bench does)")
-    else:
-        print(f"{document.write(results.machine(found), found)}: {len(found)} points")
+        return
+    print(f"{document.write(machine, found)}: {len(found)} points" + (
+        f", of which those of ./run bench are still of {machine['date']}" if missing else ""))
 
 
 def run(options):

@@ -2,6 +2,7 @@
 import math
 from dataclasses import dataclass, field
 
+LEAST_SPAN = 1.5  # times that lie nearer together than this factor have no slope but that of noise
 EXACT = 3e-5  # an error below is the rounding of float pictures: such a point is exact, and stands on no logarithmic axis
 
 
@@ -20,13 +21,18 @@ class Curve:
 
 
 def slope(points):
-    """Of the straight line through (log x, log y) that fits best; None for fewer than three or one and the same x."""
-    if len(points) < 3:
+    """Of the straight line through (log x, log y) that fits best; None for fewer than three, or hardly any range of x."""
+    if len(points) < 3 or max(p[0] for p in points) < LEAST_SPAN * min(p[0] for p in points):
         return None
     xs, ys = [math.log(p[0]) for p in points], [math.log(p[1]) for p in points]
     x, y = sum(xs) / len(xs), sum(ys) / len(ys)
     width = sum((a - x) ** 2 for a in xs)
-    return sum((a - x) * (b - y) for a, b in zip(xs, ys)) / width if width > 1e-9 else None
+    return sum((a - x) * (b - y) for a, b in zip(xs, ys)) / width
+
+
+def shownSlope(value):
+    """"–" for None; a slope that is rounded to nothing has no sign."""
+    return "–" if value is None else f"{round(value, 2) + 0.0:+.2f}".replace("+0.00", "0.00")
 
 
 def front(curves):

@@ -8,8 +8,8 @@ from bench.figures import Curve, Figure
 NAME = "error"
 LEVELS = (0.1, 0.03, 0.01, 0.003)
 # Plots that the page shows; all lie in out/bench.
-SHOWN = (("hard", "courtyard"), ("disk", "courtyard"), ("area", "heckbert_herf"), ("area", "knot"), ("ambient", "knot"),
-         ("sky", "courtyard"))
+SHOWN = (("hard", "courtyard"), ("box", "contact_panel"), ("disk", "contact_panel"), ("area", "heckbert_herf"),
+         ("area", "knot"), ("ambient", "knot"), ("sky", "contact"))
 
 
 def points(quick):
@@ -22,18 +22,27 @@ def scenesOf(results, quantity):
             if estimates.curvesOf(results, scene, quantity)]
 
 
+def drawnCurves(every, quantity):
+    """[(look, curve), ...]: those that estimate the quantity, and the filters, which do not, as one."""
+    own = techniques.namesOf(quantity)
+    filters = [curve for curve in every if curve.technique not in own]
+    drawn = [(own.index(curve.technique), curve) for curve in every if curve.technique in own]
+    return drawn + [(len(own), estimates.together(filters, f"best of {len(filters)} filters"))] if filters else drawn
+
+
 def figure(every, scene, quantity):
     """Curves with their slopes; marked: no other point is as quick and as right."""
-    best, drawn = curves.front(every), []
-    for curve in every:
+    looks, drawn = drawnCurves(every, quantity), []
+    best = curves.front([curve for _, curve in looks])
+    for look, curve in looks:
         kept = [(i, point) for i, point in enumerate(curve.points) if point[1] >= curves.EXACT]
         steep = curves.slope([point for _, point in kept])
         if kept:
             marked = [at for at, (i, _) in enumerate(kept) if (curve.technique, i) in best]
-            label = curve.technique if steep is None else f"{curve.technique} ({steep:+.2f})"
-            drawn.append(Curve(label, [point[:2] for _, point in kept], marked))
+            label = curve.technique if steep is None else f"{curve.technique} ({curves.shownSlope(steep)})"
+            drawn.append(Curve(label, [point[:2] for _, point in kept], marked, look=look))
         if exact := curve.exact():
-            drawn.append(Curve(f"{curve.technique}: exact", [(exact[0], None)], dashed=True))
+            drawn.append(Curve(f"{curve.technique}: exact", [(exact[0], None)], dashed=True, look=look))
     quantityTitle = techniques.quantity(quantity).title
     return Figure(f"error_{quantity}_{scene}", f"{scene}: {quantityTitle}", "ms a frame", "root mean square error", drawn,
                   (quantity, scene) in SHOWN, scene, quantity)
@@ -46,9 +55,6 @@ def milliseconds(ms):
 def levelRow(every, scene, quantity, level):
     """Cells of one scene and error: what is cheapest, by how much, and the alternative a reader would otherwise pick."""
     reached = estimates.reaching(every, level)
-    if not reached:
-        error, ms, technique = estimates.best(every)
-        return [scene, f"{level:g}", f"none; {technique} comes to {error:.2g}", milliseconds(ms)] + 4 * ["–"]
     if level < estimates.limitOf(every, quantity):
         return [scene, f"{level:g}", "cannot be told: the exact answer's own noise is as large"] + 5 * ["–"]
     first, cells = reached[0], ["no other", "–"]
@@ -59,12 +65,27 @@ def levelRow(every, scene, quantity, level):
     return [scene, f"{level:g}", first[1], milliseconds(first[0]), *cells]
 
 
+def nobodysRow(every, scene, quantity, levels):
+    """Cells of the errors that no technique reaches, and of the one that comes nearest."""
+    error, ms, technique, result = estimates.best(every)
+    bias = estimates.errorFigures(result, quantity)["bias"] / techniques.quantity(quantity).unit
+    # Of a root mean square, a tenth of it as bias is half a per cent.
+    said = f"bias {bias:+.1g}" if abs(bias) > 0.1 * error else "hardly any of it bias"
+    return [scene, ", ".join(f"{level:g}" for level in levels), f"none; {technique} comes to {error:.2g}, {said}",
+            milliseconds(ms)] + 4 * ["–"]
+
+
+def sceneRows(every, scene, quantity):
+    missed = [level for level in LEVELS if not estimates.reaching(every, level)]
+    rows = [levelRow(every, scene, quantity, level) for level in LEVELS if level not in missed]
+    return rows + ([nobodysRow(every, scene, quantity, missed)] if missed else [])
+
+
 def levelTable(results, quantity):
     alternative = techniques.quantity(quantity).alternative
     rows = []
     for scene in scenesOf(results, quantity):
-        every = estimates.curvesOf(results, scene, quantity)
-        rows += [levelRow(every, scene, quantity, level) for level in LEVELS]
+        rows += sceneRows(estimates.curvesOf(results, scene, quantity), scene, quantity)
     headings = ["scene", "error", "cheapest", "ms", "runner-up", "times the ms", f"{alternative}, ms", "times the ms"]
     shown = len(headings) if alternative else len(headings) - 2
     alignment = ["---", "---:", "---", "---:", "---", "---:", "---:", "---:"]
@@ -118,24 +139,25 @@ def whyLines(results, quantity):
         if technique in won:
             level, result = won[technique]
             said = work.facts(result["work"])
-            where = f"at {result['axis']} {result['value']:g} on {result['scene']}, where it is cheapest for {level:g}"
+            where = f"At {result['axis']} {result['value']:g} on {result['scene']}, where it is cheapest for {level:g}"
             line += f" ({where}: {said}.)" if said else f" (Cheapest for {level:g} on {result['scene']}.)"
         lines.append(line)
     return lines
 
 
 def slopeLines(results, quantity):
-    scenes = scenesOf(results, quantity)
-    rows = {}
+    """Of the techniques that estimate the quantity: the others' errors are not their samples'."""
+    scenes, rows = scenesOf(results, quantity), {}
     for scene in scenes:
         for curve in estimates.curvesOf(results, scene, quantity):
-            steep = curves.slope(curve.drawn())
-            rows.setdefault(curve.technique, {})[scene] = "–" if steep is None else f"{steep:+.2f}"
+            if curve.technique in techniques.namesOf(quantity):
+                rows.setdefault(curve.technique, {})[scene] = curves.shownSlope(curves.slope(curve.drawn()))
     cells = [[technique, *(found.get(scene, "–") for scene in scenes)] for technique, found in rows.items()]
     if all(cell == "–" for row in cells for cell in row[1:]):
         return []
-    return ["How error falls with time, as the slope of the line fitted to the curve (random samples: −0.5):", "",
-            tables.markdown(["slope", *scenes], cells, ["---", *("---:" for _ in scenes)]), ""]
+    alignment = ["---", *("---:" for _ in scenes)]
+    return ["How error falls with time, as the slope of the line fitted to the curve (random samples: -0.5; –: fewer than "
+            "three settings, or all about as quick):", "", tables.markdown(["slope", *scenes], cells, alignment), ""]
 
 
 def areaTable(results):
@@ -157,7 +179,7 @@ def quantityLines(results, quantity):
     if quantity.without:
         lines += [f"Without an alternative: {quantity.without}.", ""]
     lines += [levelTable(results, quantity.name), "", *whyLines(results, quantity.name), "",
-              *slopeLines(results, quantity.name)]
+              f"What is left where more work does not help: {quantity.floor}.", "", *slopeLines(results, quantity.name)]
     if quantity.name == "area" and (compared := areaTable(results)):
         lines += ["What chapters 04 to 07 filter is not this light. At their best settings, against both:", "", compared, ""]
     return lines
@@ -186,8 +208,10 @@ and how many times quicker it is then (medians) than the next one, and than the 
 """
 EXPLANATION = """
 A technique is a curve: each setting of its quality is a point with a time and an error, and between two settings the curve
-is interpolated on logarithmic axes. Techniques are compared where they estimate the same quantity. *Error* is the root mean
-square over all pixels whose exact answer is defined; where the exact answer is itself many rays, its own noise is taken
-off, and errors that noise would drown are not compared. *ms* is the time of a frame in which the light moves, so that maps
-are rendered again; what is baked once for a scene (chapters 09 and 11 at vertices) is counted in full.
+is interpolated on logarithmic axes. It reaches an error where all finer settings keep it: one that is better by luck does
+not count. Techniques are compared where they estimate the same quantity. *Error* is the root mean square over all pixels
+whose exact answer is defined; where the exact answer is itself many rays, its own noise is taken off, and errors that noise
+would drown are not compared. *Bias* is the mean error: above 0 the picture is too bright. *ms* is the time of a frame in
+which the light moves, so that maps are rendered again; what is baked once for a scene (chapters 09 and 11 at vertices) is
+counted in full.
 """

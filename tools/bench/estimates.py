@@ -3,6 +3,7 @@ import math
 
 from bench import curves, techniques
 
+LUCK = 1.05  # so much more error may a finer setting have, and count as having kept it
 NOISE = 1.5  # an error that is less than so many times the exact answer's own says nothing
 
 
@@ -41,12 +42,28 @@ def limitOf(every, quantity):
     return NOISE * max((f.get("standard_error", 0.0) for f in figures), default=0.0) / techniques.quantity(quantity).unit
 
 
+def lasting(curve, level):
+    """The curve without settings that are below an error by luck: a finer one has more again."""
+    first = len(curve.points)
+    while first > 0 and curve.points[first - 1][1] <= LUCK * level:
+        first -= 1
+    return curves.Curve(curve.technique, [p for i, p in enumerate(curve.points) if i >= first or p[1] > level])
+
+
 def reaching(every, level):
-    """[(ms, technique, result), ...] of all that reach an error, the quickest first."""
-    found = [(*reached, curve.technique) for curve in every if (reached := curves.timeTo(curve, level))]
+    """[(ms, technique, result), ...] of all that reach an error and keep it, the quickest first."""
+    found = [(*reached, curve.technique) for curve in every if (reached := curves.timeTo(lasting(curve, level), level))]
     return sorted(((ms, technique, result) for ms, result, technique in found), key=lambda entry: entry[:2])
 
 
 def best(every):
-    """(error, ms, technique) of the least error of all."""
-    return min((point[1], point[0], curve.technique) for curve in every for point in curve.points)
+    """(error, ms, technique, result) of the least error of all."""
+    return min(((error, ms, curve.technique, result) for curve in every for ms, error, result in curve.points),
+               key=lambda entry: entry[:3])
+
+
+def together(every, label):
+    """One curve of the best settings of several, for a figure in which they would hide one another."""
+    front = curves.front(every)
+    points = [point for curve in every for i, point in enumerate(curve.points) if (curve.technique, i) in front]
+    return curves.Curve(label, sorted(points, key=lambda point: point[:2]))

@@ -6,7 +6,7 @@ import plot
 WIDTH, HEIGHT = 860, 480
 LEFT, RIGHT, TOP, BOTTOM = 76, 236, 40, 56
 MARKS = ("circle", "square", "diamond", "triangle")
-GREY, INK = "#dddddd", "#333333"
+GREY, GUIDE, INK = "#dddddd", "#999999", "#333333"
 
 
 @dataclass
@@ -14,7 +14,9 @@ class Curve:
     label: str
     points: list                 # [(x, y), ...], positive, joined in this order; y None: a vertical line at x
     front: list = field(default_factory=list)  # indices of points to mark: nothing is better in both
-    dashed: bool = False         # for a model or a limit
+    dashed: bool = False         # for what is not ours, or stands at one time
+    guide: bool = False          # not measured: a law to compare slopes with, grey and without marks
+    look: int = -1               # which colour and mark, so that a technique looks alike in all figures; -1: by its place
 
 
 @dataclass
@@ -27,6 +29,7 @@ class Figure:
     inDocs: bool = False         # also docs/images/bench_NAME.svg, for docs/benchmark.md
     scene: str = ""              # what out/benchmark.html may be narrowed to
     quantity: str = ""
+    ticks: tuple = ()            # of x; none: 1, 2 and 5 times powers of ten
 
     def markdown(self):
         """How docs/benchmark.md shows it."""
@@ -70,6 +73,11 @@ def limits(values, least):
     return low / widen, high * widen
 
 
+def named(value):
+    """Of a tick: 0.02, 500, 20 k, 1 M."""
+    return f"{value / 1e6:g} M" if value >= 1e6 else f"{value / 1e3:g} k" if value >= 1e4 else f"{value:g}"
+
+
 def labels(axis, values, apart):
     """Ticks that get a label: those too near to the last one labelled go without."""
     shown, last = set(), None
@@ -82,31 +90,36 @@ def labels(axis, values, apart):
 
 def grid(figure, x, y, xLimits, yLimits):
     right, bottom = WIDTH - RIGHT, HEIGHT - BOTTOM
-    parts, ticks = [], plot.ticks(*xLimits)
+    parts, ticks = [], figure.ticks or plot.ticks(*xLimits)
     shown = labels(x, ticks, 44)
     for tick in ticks:
         parts.append(Line([(x.at(tick), TOP), (x.at(tick), bottom)], GREY, 1))
         if tick in shown:
-            parts.append(Text(x.at(tick), bottom + 18, f"{tick:g}"))
+            parts.append(Text(x.at(tick), bottom + 18, named(tick)))
     ticks = plot.ticks(*yLimits)
     shown = labels(y, ticks, 15)
     for tick in ticks:
         parts.append(Line([(LEFT, y.at(tick)), (right, y.at(tick))], GREY, 1))
         if tick in shown:
-            parts.append(Text(LEFT - 8, y.at(tick) + 4, f"{tick:g}", "end"))
+            parts.append(Text(LEFT - 8, y.at(tick) + 4, named(tick), "end"))
     return [*parts, Text((LEFT + right) / 2, HEIGHT - 14, figure.x), Text(16, (TOP + bottom) / 2, figure.y, upright=True),
             Text(LEFT, 22, figure.title, "start", size=15)]
 
 
-def curveParts(curve, i, x, y):
-    colour, shape = plot.COLOURS[i % len(plot.COLOURS)], MARKS[i // len(plot.COLOURS) % len(MARKS)]
+def lookOf(curve, place):
+    """(colour, mark): every colour with the first mark, then every colour with the next."""
+    at = place if curve.look < 0 else curve.look
+    return (GUIDE if curve.guide else plot.COLOURS[at % len(plot.COLOURS)]), MARKS[at // len(plot.COLOURS) % len(MARKS)]
+
+
+def curveParts(curve, colour, shape, x, y):
     if curve.points[0][1] is None:
         at = x.at(curve.points[0][0])
-        return [Line([(at, TOP), (at, HEIGHT - BOTTOM)], colour, 1.5, dashed=True)], colour, shape
+        return [Line([(at, TOP), (at, HEIGHT - BOTTOM)], colour, 1.5, dashed=True)]
     places = [(x.at(a), y.at(b)) for a, b in curve.points]
-    parts = [Line(places, colour, 2, curve.dashed)] if len(places) > 1 else []
-    parts += [Mark(*place, shape, colour, at in curve.front) for at, place in enumerate(places)]
-    return parts, colour, shape
+    parts = [Line(places, colour, 2, curve.dashed or curve.guide)] if len(places) > 1 else []
+    marks = [Mark(*place, shape, colour, i in curve.front) for i, place in enumerate(places)]
+    return parts if curve.guide else parts + marks
 
 
 def legend(entries, marked):
@@ -114,8 +127,8 @@ def legend(entries, marked):
     left, parts = WIDTH - RIGHT + 14, []
     for i, (curve, colour, shape) in enumerate(entries):
         y = TOP + 8 + 19 * i
-        parts.append(Line([(left, y), (left + 24, y)], colour, 2, curve.dashed))
-        if curve.points[0][1] is not None:
+        parts.append(Line([(left, y), (left + 24, y)], colour, 2, curve.dashed or curve.guide))
+        if curve.points[0][1] is not None and not curve.guide:
             parts.append(Mark(left + 12, y, shape, colour, True))
         parts.append(Text(left + 32, y + 4, curve.label, "start"))
     y = TOP + 16 + 19 * len(entries)
@@ -134,7 +147,7 @@ def layOut(figure):
     y = plot.Axis(*yLimits, HEIGHT - BOTTOM, TOP)
     parts, entries = grid(figure, x, y, xLimits, yLimits), []
     for i, curve in enumerate(figure.curves):
-        drawn, colour, shape = curveParts(curve, i, x, y)
-        parts += drawn
-        entries.append((curve, colour, shape))
+        look = lookOf(curve, i)
+        parts += curveParts(curve, *look, x, y)
+        entries.append((curve, *look))
     return parts + legend(entries, any(curve.front for curve in figure.curves))

@@ -4,11 +4,12 @@ import time
 from datetime import datetime, timezone
 
 from bench import results, runner, sections, store
+from bench.progress import clock
 from bench.runner import PointError
 
 MOST_PASSES = {False: 3, True: 2}  # by `quick`
 SLOW_S, VERY_SLOW_S = 1.0, 5.0     # of a process without exact answer: twice, once
-BUDGET_S = {False: 1620, True: 165}  # a repeat that would take longer is left for the next run, which goes on from there
+BUDGET_S = {False: 1620, True: 165}  # a repeat that would end later is left for the next run, which goes on from there
 
 
 def passesFor(samples, quick):
@@ -38,7 +39,7 @@ class Measuring:
         self.keys = {point: store.digest(point) for point in points}
         self.samples = {point: list(held.get((point.id, self.keys[point]), [])) for point in points}
         self.failures = {}
-        self.spent, self.made = 0.0, 0
+        self.spent, self.made, self.began = 0.0, 0, time.monotonic()
 
     def wanted(self, number):
         """Points that lack pass `number`, counted from 0."""
@@ -47,16 +48,29 @@ class Measuring:
 
     def run(self):
         """Measures every point once, and again while there is time; an interrupt leaves what was measured."""
-        began = time.monotonic()
+        self.began = time.monotonic()
         for number in range(MOST_PASSES[self.quick]):
             todo = self.wanted(number)
             for i, point in enumerate(todo):
-                if number and time.monotonic() - began > BUDGET_S[self.quick]:
-                    self.progress.say(f"{BUDGET_S[self.quick] // 60} minutes are over: {len(todo) - i} repeats are left out")
-                    return self.progress.clear()
+                if number and self.overAfter(point):
+                    return self.leaveOut(len(todo) - i, number)
                 self.progress.show(i, len(todo), self.left(todo[i:], number), f"pass {number + 1}, {point.id}")
                 self.one(point)
         self.progress.clear()
+
+    def overAfter(self, point):
+        """Would a repeat of the point end after the time that a run may take?"""
+        return time.monotonic() - self.began + self.repeat(point) > BUDGET_S[self.quick]
+
+    def leaveOut(self, count, number):
+        """Says how much was not repeated, and whether the machine was too slow for even one pass."""
+        spent, planned = time.monotonic() - self.began, BUDGET_S[self.quick]
+        if number == 1 and spent > planned:
+            self.progress.say(f"one pass over all points took {clock(spent)}, more than the {clock(planned)} planned for "
+                              "all passes: this machine is slower, or busier, than the plan expects; nothing is left "
+                              f"unmeasured, and {count} repeats are left out")
+        else:
+            self.progress.say(f"{clock(planned)} are over: {count} repeats are left out; the same command makes them")
 
     def one(self, point):
         started = time.monotonic()
@@ -71,11 +85,15 @@ class Measuring:
         self.samples[point].append(sample)
         store.append(point, self.keys[point], sample)
 
+    def repeat(self, point):
+        """Seconds that a point takes once more, by its first sample; it goes without the exact answer then."""
+        first = self.samples[point][0]
+        return 1e-3 * (first.get("setup_ms", 0.0) + max(2.0 * first["wall_ms"], runner.BUDGET_MS))
+
     def left(self, todo, number):
-        """Seconds: of what was measured before what it took without the exact answer, of the rest the mean so far."""
+        """Seconds: of what was measured before what it took then, of the rest the mean so far."""
         mean = self.spent / self.made if self.made else 1.0
-        known = lambda s: 1e-3 * (s.get("setup_ms", 0.0) + max(2.0 * s["wall_ms"], runner.BUDGET_MS))  # noqa: E731
-        each = lambda point: known(self.samples[point][0]) if self.samples[point] else mean  # noqa: E731
+        each = lambda point: self.repeat(point) if self.samples[point] else mean  # noqa: E731
         later = 0.0 if number + 1 >= MOST_PASSES[self.quick] else sum(
             each(point) for point in self.samples if point not in self.failures)
         return sum(each(point) for point in todo) + later * (MOST_PASSES[self.quick] - number - 1)

@@ -173,14 +173,19 @@ def groupLines(quantity, scene, curves):
 
 
 def figure(quantity, scene, curves):
-    drawn = [Curve(technique, [point[:2] for point in curveOf(results, "cpu_ms").points], dashed=isPeer(technique))
-             for technique, results in curves.items()]
+    drawn = []
+    for look, (technique, results) in enumerate(curves.items()):
+        curve = curveOf(results, "cpu_ms")
+        if kept := [point[:2] for point in curve.drawn()]:
+            drawn.append(Curve(technique, kept, dashed=isPeer(technique), look=look))
+        if exact := curve.exact():
+            drawn.append(Curve(f"{technique}: exact", [(exact[0], None)], dashed=True, look=look))
     return Figure(f"peers_{quantity.replace(' ', '_')}_{scene}", f"{scene}: {quantity}; dashed: other programs",
                   "ms of CPU", "root mean square error", drawn, True, scene, quantity)
 
 
 def page(results):
-    lines, figures = [INTRODUCTION.strip(), "", versions(results), ""], []
+    lines, figures = ["## Other programs", "", INTRODUCTION.strip(), "", versions(results), ""], []
     for (quantity, scene), curves in groups(results):
         figures.append(figure(quantity, scene, curves))
         lines += [*groupLines(quantity, scene, curves), figures[-1].markdown(), ""]
@@ -193,8 +198,6 @@ def versions(results):
 
 
 INTRODUCTION = """
-## Other programs
-
 Blender's path tracer Cycles and MeshLab's filter "Ambient Occlusion" estimate what chapters here estimate. `./run bench
 --peers` installs them from Debian's packages, exports the scenes (PLY, checked by counts and bounds in the program that
 reads them), and measures both with the same exact answer, two threads, no denoiser.

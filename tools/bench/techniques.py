@@ -16,34 +16,38 @@ class Quantity:
     title: str
     unit: float           # errors are divided by it
     alternative: str      # the technique a reader would otherwise pick, or ""
-    without: str = ""     # why there is none
+    floor: str            # what is left where more work does not help
+    without: str = ""     # why there is no alternative
 
 
+BIAS = ("bias, since the margin that keeps a wide filter from shadowing its own receiver lets light through at contacts, "
+        "most of it on curved surfaces, and no further tap takes it back")
+NO_RAYS = "no ray of chapter 00 estimates a filter: compare under *the visibility of an area light*"
 QUANTITIES = (
-    Quantity("hard", "the hard shadow of a point light", 1.0, "00 rays"),
-    Quantity("box", "visibility filtered by a box on the light's map", 1.0, "",
-             "no ray of chapter 00 estimates a filter: compare under *the visibility of an area light*"),
-    Quantity("disk", "visibility filtered by a disk on the light's map", 1.0, "",
-             "no ray of chapter 00 estimates a filter: compare under *the visibility of an area light*"),
-    Quantity("area", "the visibility of an area light", 1.0, "00 rays"),
-    Quantity("ambient", "ambient visibility", 1.0, "09 rays"),
-    Quantity("sky", "the irradiance under an overcast sky, divided by that of open ground", OPEN_SKY, "11 rays"),
+    Quantity("hard", "the hard shadow of a point light", 1.0, "00 rays",
+             "of a map the texels along the shadow's edge, of rays the pixels whose edge passes within a rounding of float"),
+    Quantity("box", "visibility filtered by a box on the light's map", 1.0, "", BIAS, NO_RAYS),
+    Quantity("disk", "visibility filtered by a disk on the light's map", 1.0, "", BIAS, NO_RAYS),
+    Quantity("area", "the visibility of an area light", 1.0, "00 rays",
+             "of rays the slivers that the first 16 miss (`--adaptive off` asks them all), of masks the blending between "
+             "texels, and on curved surfaces, where only maps help, the maps' bias"),
+    Quantity("ambient", "ambient visibility", 1.0, "09 rays",
+             "of maps their texels and of rays their noise; of vertices whatever lies between them, which no ray from a "
+             "vertex sees"),
+    Quantity("sky", "the irradiance under an overcast sky, divided by that of open ground", OPEN_SKY, "11 rays",
+             "the bent normal itself, one look-up in place of an integral; of vertices whatever lies between them"),
 )
 
-# The light of each scene, by kind of quantity; None: the scene has no such light, and the combination is left out.
-#   hard: a lamp or sun; a square light stands for the lamp in its middle
-#   soft: of boxes and disks, and of the area light where it is one
-LIGHTS = {
-    "heckbert_herf": {"hard": 0, "soft": 0},
-    "contact": {"hard": 0, "soft": None},        # a spot; under a panel the same things are `contact_panel`
-    "contact_panel": {"hard": None, "soft": 0},
-    "fence": {"hard": 0, "soft": 0},             # a sun: boxes and disks, but no area light
-    "knot": {"hard": 0, "soft": 1},
-    "courtyard": {"hard": 0, "soft": 2},
-}
-AREA_LIGHT = ("heckbert_herf", "contact_panel", "knot", "courtyard")  # whose soft light has an area
-PUNCTUAL = ("contact", "fence", "knot", "courtyard")                  # whose hard light has none: chapter 00 casts one ray
-LARGE = ("knot", "courtyard")                                         # 70 000 triangles and more
+# The light of each scene, by kind of quantity; a scene that is not there has no such light, and the combination is left out.
+# A square light stands for the lamp in its middle.
+HARD = {"heckbert_herf": 0, "contact": 0, "fence": 0, "knot": 0, "courtyard": 0}
+# Of boxes and disks: not the window of `courtyard`, whose middle is behind its mullion, so that its one map is all dark.
+FILTERED = {"heckbert_herf": 0, "contact_panel": 0, "fence": 0, "knot": 1, "courtyard": 0}
+AREA = {"heckbert_herf": 0, "contact_panel": 0, "knot": 1, "courtyard": 2}
+LIGHTS = {"hard": HARD, "box": FILTERED, "disk": FILTERED, "area": AREA}
+SCENES = ("heckbert_herf", "contact", "contact_panel", "fence", "knot", "courtyard")
+PUNCTUAL = ("contact", "fence", "knot", "courtyard")  # whose hard light has none: chapter 00 casts one ray
+LARGE = ("knot", "courtyard")                         # 70 000 triangles and more
 SKY_SCENES = ("heckbert_herf", "contact", "fence", "knot", "courtyard")
 QUICK_SCENES = ("heckbert_herf", "contact", "contact_panel")
 
@@ -101,45 +105,43 @@ TECHNIQUES = (
     Technique("07 min-max", "07_branching", "disk", "samples", MOST_TAPS, MOST_TAPS, (*DISK, "--samples", "{}"),
               "a minimum and a maximum decide lit and dark at once, and only the penumbra takes the taps"),
     Technique("00 rays", "00_ray_traced_truth", "area", "samples", (4, 16, 64, 256, 1024), (4, 16, 64, 256),
-              (*SOFT, "--samples", "{}"), "every shadow ray walks the hierarchy; where the first 16 agree no more are cast",
-              AREA_LIGHT),
+              (*SOFT, "--samples", "{}"), "every shadow ray walks the hierarchy; where the first 16 agree no more are cast"),
     Technique("07 contact-hardening", "07_branching", "area", "samples", (16, 64, 256), (16, 64, 256),
               (*SOFT, "--penumbra", "contact-hardening", "--radius", "64", "--samples", "{}"),
-              "one map from the light's middle: cheap, and blind to what only the light's rim sees", AREA_LIGHT),
+              "one map from the light's middle: cheap, and blind to what only the light's rim sees"),
     Technique("08 mask", "08_accumulation", "area", "samples", (4, 16, 64, 256, 1024), (4, 16, 64),
               (*SOFT, "--method", "mask", "--samples", "{}", "--others-samples", "{}"),
-              "32 light points a draw call, a bit each, on the texels that a shadow can reach", AREA_LIGHT),
+              "32 light points a draw call, a bit each, on the texels that a shadow can reach"),
     Technique("08 accumulate", "08_accumulation", "area", "samples", (4, 16, 64, 256, 1024), (1, 4, 16),
               (*SOFT, "--method", "accumulate", "--samples", "{}", "--others-samples", "{}"),
-              "clear, draw and add over every texel for every light point, as in the paper", AREA_LIGHT),
+              "clear, draw and add over every texel for every light point, as in the paper"),
     Technique("08 shadow maps", "08_accumulation", "area", "samples", (4, 16, 64, 256), (4, 16, 64),
               (*SOFT, "--method", "shadow-maps", "--samples", "{}", "--others-samples", "{}"),
-              "a depth map and a look-up for every light point, on surfaces of any shape", AREA_LIGHT),
+              "a depth map and a look-up for every light point, on surfaces of any shape"),
     # Exactly, 70 000 triangles over one floor take minutes: no alternative that anybody would pick.
     Technique("08 exact", "08_accumulation", "area", "others-samples", (16,), (),
               (*SOFT, "--method", "exact", "--others-samples", "{}"),
-              "cone subtraction where a texel block sees an occluder, a formula elsewhere: no sample at all", AREA_LIGHT),
+              "cone subtraction where a texel block sees an occluder, a formula elsewhere: no sample at all"),
     Technique("09 rays", "09_ambient_occlusion", "ambient", "samples", (4, 16, 64, 256), (4, 16, 64),
-              (*SKY, "--samples", "{}"), "rays from every pixel, in directions that no cache likes", SKY_SCENES),
+              (*SKY, "--samples", "{}"), "rays from every pixel, in directions that no cache likes"),
     Technique("09 vertices", "09_ambient_occlusion", "ambient", "samples", (16, 64, 256, 1024), (16, 64, 256),
               (*SKY, "--method", "vertices", "--samples", "{}"),
               "rays from vertices only, shared among neighbours, once: then a frame is free, and what lies between vertices "
-              "is blended", SKY_SCENES, ("bake",)),
+              "is blended", once=("bake",)),
     Technique("10 pixels", "10_accumulated_occlusion", "ambient", "samples", (16, 64, 256, 1024), (16, 64, 256),
-              (*SKY, "--samples", "{}"), "one depth map answers one direction for all pixels at once", SKY_SCENES),
+              (*SKY, "--samples", "{}"), "one depth map answers one direction for all pixels at once"),
     Technique("10 vertices", "10_accumulated_occlusion", "ambient", "samples", (16, 64, 256), (16, 64, 256),
               (*SKY, "--method", "vertices", "--samples", "{}"),
-              "depth maps looked up at vertices only: fewer look-ups, and what lies between is blended", SKY_SCENES),
+              "depth maps looked up at vertices only: fewer look-ups, and what lies between is blended"),
     Technique("11 rays", "11_bent_normals", "sky", "samples", (4, 16, 64, 256), (4, 16, 64),
               (*IRRADIANCE, "--source", "rays", "--samples", "{}"),
-              "rays from every pixel for A and B, one look-up along B: what stays is the error of a bent normal",
-              SKY_SCENES),
+              "rays from every pixel for A and B, one look-up along B: what stays is the error of a bent normal"),
     Technique("11 vertices", "11_bent_normals", "sky", "samples", (16, 64, 256), (16, 64, 256),
               (*IRRADIANCE, "--source", "vertices", "--samples", "{}"),
-              "A and B are baked with the vertices, and a frame is one look-up", SKY_SCENES, ("bake",)),
+              "A and B are baked with the vertices, and a frame is one look-up", once=("bake",)),
     Technique("11 maps", "11_bent_normals", "sky", "samples", (16, 64, 256), (16, 64),
               (*IRRADIANCE, "--source", "maps", "--samples", "{}"),
-              "one depth map a direction gives A and B to all pixels at once", SKY_SCENES),
+              "one depth map a direction gives A and B to all pixels at once"),
 )
 
 
@@ -148,18 +150,16 @@ def filled(flag, value):
 
 
 def lightFlags(technique, scene):
-    """None where the scene has no light for the technique."""
-    if technique.quantity in ("ambient", "sky"):
-        return ()
-    light = LIGHTS[scene]["hard" if technique.quantity == "hard" else "soft"]
+    """None where the scene has no light for the technique. The sky is above all scenes but those that have none."""
+    if technique.quantity not in LIGHTS:
+        return () if scene in SKY_SCENES else None
+    light = LIGHTS[technique.quantity].get(scene)
     return None if light is None else ("--light", str(light))
 
 
 def pointsOf(technique, scene, quick):
     light = lightFlags(technique, scene)
     if light is None or (technique.scenes and scene not in technique.scenes):
-        return []
-    if technique.quantity in ("ambient", "sky") and scene not in SKY_SCENES:
         return []
     values = technique.large if scene in LARGE else technique.values
     if quick:  # every other one, the best ones left out: a curve is a curve from two points on
@@ -174,12 +174,17 @@ def onceFlags(technique):
 
 
 def allPoints(quick):
-    scenes = QUICK_SCENES if quick else LIGHTS
+    scenes = QUICK_SCENES if quick else SCENES
     return [point for scene in scenes for technique in TECHNIQUES for point in pointsOf(technique, scene, quick)]
 
 
 def quantity(name):
     return next(q for q in QUANTITIES if q.name == name)
+
+
+def namesOf(quantityName):
+    """Of the techniques that estimate it, in the order of the chapters: what else is compared with it estimates another."""
+    return list(dict.fromkeys(t.name for t in TECHNIQUES if t.quantity == quantityName))
 
 
 def whyOf(name, quantityName):
