@@ -10,6 +10,15 @@
 
 namespace penumbra::stress {
 
+namespace {
+
+std::string methodOf09(const Case& given) {
+    const std::vector<std::string> methods{"rays", "hemisphere", "vertices", "triangles", "bits"};
+    return methods[std::size_t(given.integer("variant") / 5) % methods.size()];
+}
+
+}  // namespace
+
 Scene anyScene(const Case& given, double lowered) {
     Dice dice(std::uint64_t(given.integer("variant")));
     const glm::dvec3 eye(0.4, 1.5, 2.2);
@@ -38,6 +47,11 @@ Scene anyScene(const Case& given, double lowered) {
 Settings settingsOf(const Case& given) {
     const std::string chapter = given.choice("chapter");
     Settings settings;
+    if (chapter == "00" || chapter == "09") {
+        settings.emplace_back("samples", "8");
+        if (chapter == "09") settings.emplace_back("method", methodOf09(given));
+        return settings;
+    }
     settings.emplace_back("map-size", std::to_string(given.integer("map-size")));
     if (chapter == "08") {
         settings.emplace_back("samples", "16");
