@@ -48,8 +48,9 @@ Settings settingsOf(const Case& given) {
     const std::string chapter = given.choice("chapter");
     Settings settings;
     if (chapter == "00" || chapter == "09") {
-        settings.emplace_back("samples", "8");
-        if (chapter == "09") settings.emplace_back("method", methodOf09(given));
+        const std::string method = chapter == "09" ? methodOf09(given) : "";
+        settings.emplace_back("samples", method == "bits" ? "64" : "8");
+        if (chapter == "09") settings.emplace_back("method", method);
         return settings;
     }
     settings.emplace_back("map-size", std::to_string(given.integer("map-size")));
