@@ -19,7 +19,7 @@ struct TapReach {
 
 /// At one point of a plane. A shader knows the plane's slope from the differences between neighbouring
 /// pixels, and bounds what rounding leaves unsure of it; so the bias lies between what the exact slope asks
-/// for and this.
+/// for and this. Beyond 85 degrees it ends (steepestSlope), and may be less than the exact slope asks for.
 class BiasBound {
  public:
     /// `strq` of the point, and its exact differences `dx` and `dy` between neighbouring pixels. `errors`: of
@@ -29,12 +29,17 @@ class BiasBound {
 
     /// Window depth.
     double bias(const TapReach& reach = {}) const;
+    /// What chapter 03 asks for where the slope (over the whole map) is known exactly, however steep: what the
+    /// depth of a texel and that of the surface in it may differ by.
+    double asked(const glm::dvec2& slope) const;
     /// dz/ds and dz/dt over the whole map.
     const glm::dvec2& slope() const { return slope_; }
     /// What s, t may be off by, in texels.
     double sideways() const;
 
  private:
+    double withSlope(double atMost, const TapReach& reach) const;
+
     DepthErrors errors_;
     glm::dvec3 rounding_;
     double mapSize_, perQ_, z_, atMost_;

@@ -19,17 +19,14 @@ std::string methodOf09(const Case& given) {
 
 }  // namespace
 
-Scene anyScene(const Case& given, double lowered) {
+Scene anyScene(const Case& given) {
     Dice dice(std::uint64_t(given.integer("variant")));
     const glm::dvec3 eye(0.4, 1.5, 2.2);
     const Placement placement(given, eye, dice);
     std::vector<Triangle> triangles{{glm::dvec3(-2, 0, 2), glm::dvec3(2, 0, 2), glm::dvec3(2, 0, -2)},
                                     {glm::dvec3(-2, 0, 2), glm::dvec3(2, 0, -2), glm::dvec3(-2, 0, -2)}};
     const TrianglePlace place{{0.1, 0.4, -0.1}, 0.8, {0, 1, 0}};
-    for (Triangle t : trianglesOf(given.choice("shape"), place, dice)) {
-        for (glm::dvec3& p : t) p.y -= lowered;
-        triangles.push_back(t);
-    }
+    for (const Triangle& t : trianglesOf(given.choice("shape"), place, dice)) triangles.push_back(t);
     Scene scene = drawnScene(placement.triangles(std::move(triangles)));
     const double angle = given.number("light-angle") * radians;
     const glm::dvec3 toLight(std::sin(angle), std::cos(angle), 0.0);

@@ -37,19 +37,27 @@ BiasBound::BiasBound(const LightFrustum& frustum, const DepthErrors& errors, int
 }
 
 double BiasBound::bias(const TapReach& reach) const {
+    return withSlope(atMost_, reach);
+}
+
+double BiasBound::asked(const glm::dvec2& slope) const {
+    return withSlope(std::abs(slope.x) + std::abs(slope.y), {});
+}
+
+double BiasBound::withSlope(double atMost, const TapReach& reach) const {
     const glm::dvec2 slope = glm::abs(slope_);
-    // The shader's slope is off by as much as atMost_ is above the exact one, both ways.
-    const double unsure = std::min(atMost_, 2.0 * std::max(atMost_ - slope.x - slope.y, 0.0));
-    const double lateral = (rounding_.x + rounding_.z) * perQ_ * atMost_;
-    const double S = reach.followsPlane ? 0.5 / mapSize_ * (unsure + 2.0 * errors_.snap * atMost_)
-                                        : (0.5 + errors_.snap) / mapSize_ * atMost_;
+    // The shader's slope is off by as much as its bound is above the exact one, both ways.
+    const double unsure = std::min(atMost, 2.0 * std::max(atMost - slope.x - slope.y, 0.0));
+    const double lateral = (rounding_.x + rounding_.z) * perQ_ * atMost;
+    const double S = reach.followsPlane ? 0.5 / mapSize_ * (unsure + 2.0 * errors_.snap * atMost)
+                                        : (0.5 + errors_.snap) / mapSize_ * atMost;
     const double follows = reach.followsPlane ? 0.0 : 1.0;
-    const double beside = reach.square * (unsure + follows * std::min(atMost_, slope.x + slope.y + unsure)) +
-                          reach.disk * (unsure + follows * std::min(atMost_, glm::length(slope) + unsure)) +
-                          reach.footprint * atMost_;
+    const double beside = reach.square * (unsure + follows * std::min(atMost, slope.x + slope.y + unsure)) +
+                          reach.disk * (unsure + follows * std::min(atMost, glm::length(slope) + unsure)) +
+                          reach.footprint * atMost;
     const double Q = errors_.quantum.x + errors_.quantum.y * std::abs(z_);
     const double C = (rounding_.y + std::abs(z_) * rounding_.z) * perQ_ + errors_.rasterError.x +
-                     errors_.rasterError.y * (std::abs(z_) + atMost_);
+                     errors_.rasterError.y * (std::abs(z_) + atMost);
     return S + lateral + beside / mapSize_ + Q + C;
 }
 

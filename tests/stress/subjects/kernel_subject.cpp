@@ -184,7 +184,7 @@ struct Kernel {
 Verdict check(const Case& given) {
     Verdict verdict;
     const LoneSurface surface = shadowedSurface(given);
-    if (!seesGroundAlone(surface)) return verdict;
+    if (!seesGroundAlone(surface)) return nothingSeen();
     const Kernel kernel(given);
     const std::string format = given.choice("depth-format");
     const int mapSize = given.integer("map-size"), picture = std::min(given.integer("picture"), mostPixels);
@@ -209,7 +209,7 @@ Verdict check(const Case& given) {
     const glm::dvec3 corner = surface.point(0, 0, picture);
     const glm::dvec4 dx = m * glm::dvec4(surface.point(1, 0, picture) - corner, 0.0),
                      dy = m * glm::dvec4(surface.point(0, 1, picture) - corner, 0.0);
-    const double shift = pixelsBeside(surface.scene, both.snap, picture);
+    const double shift = pixelsBeside(surface.scene, both.snap, picture, corner);
     double off = 0.0, settled = 0.0;
     for (int y = 0; y < picture; ++y) {
         for (int x = 0; x < picture; ++x) {

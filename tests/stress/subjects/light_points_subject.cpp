@@ -43,17 +43,11 @@ struct Seen {
     double least = 0.0, most = 1.0;
 };
 
-double halfSubpixel() {
-    GLint bits = 0;
-    glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
-    return std::ldexp(0.5, -std::max(bits, 4));
-}
-
 /// One light point: the triangles as its matrix projects them on the receiver's texture, where q is the
 /// fraction of the way from the light.
 struct ProjectedLight {
     LightPoint point;
-    double height, far, tolerance;
+    double height, near, far, tolerance;
     bool tooLow;
     std::vector<ProjectedTriangle> triangles;
 };
@@ -78,6 +72,7 @@ class LightOnReceiver {
                 snap, {std::max(rounding.x, rounding.y) + rounding.w, 0.0, rounding.w}, projection->near};
             ProjectedLight light{point,
                                  receiver.height(point.position),
+                                 projection->near,
                                  projection->far,
                                  rounding.w + 0x1p-22,
                                  projection->tooLow,
@@ -118,8 +113,11 @@ class LightOnReceiver {
         for (const ProjectedTriangle& triangle : light.triangles) {
             Cover cover = triangle.covers(at);
             if (cover == Cover::no) continue;
-            // What lies nearer to the receiver than float arithmetic can tell from it is cut off.
-            if (light.tooLow || triangle.distance(at) > light.far - light.tolerance) cover = Cover::maybe;
+            // What lies nearer to the receiver than float arithmetic can tell from it is cut off, and so is
+            // what lies nearer to the light than a thousandth of the way.
+            const double t = triangle.distance(at);
+            if (light.tooLow || t > light.far - light.tolerance || t < light.near + light.tolerance)
+                cover = Cover::maybe;
             if (cover == Cover::yes) return cover;
             most = Cover::maybe;
         }
@@ -156,7 +154,7 @@ Off compare(const LoneSurface& surface, const Receiver& receiver, const std::vec
     // Sums of float weights, each of a dozen roundings; the blend; and the texture that is interpolated
     // (2e-8).
     const double rounding = (double(points.size()) + 32.0) * 0x1p-23;
-    const double shift = pixelsBeside(surface.scene, halfSubpixel(), V.width);
+    const double shift = pixelsBeside(surface.scene, halfSubpixel(), V.width, surface.point(0, 0, V.width));
     const double pixel = glm::length(surface.point(1, 0, V.width) - surface.point(0, 0, V.width));
     const double texelsPerMetre = std::max(receiver.texels.x / glm::length(receiver.uEdge),
                                            receiver.texels.y / glm::length(receiver.vEdge));
@@ -187,10 +185,10 @@ Off compare(const LoneSurface& surface, const Receiver& receiver, const std::vec
 Verdict check(const Case& given) {
     Verdict verdict;
     const LoneSurface surface = underAreaLight(given);
-    if (!seesGroundAlone(surface)) return verdict;
+    if (!seesGroundAlone(surface)) return nothingSeen();
     const glm::dvec3 n = surface.normal();
     const std::vector<Receiver> receivers =
-        receiversOf(surface.scene, 0, glm::dot(n, surface.scene.cameras[0].forward) > 0.0 ? -n : n);
+        receiversOf(surface.scene, 0, 1e-4, glm::dot(n, surface.scene.cameras[0].forward) > 0.0 ? -n : n);
     if (receivers.size() != 1) return verdict;
     const int variant = given.integer("variant"), count = std::clamp(given.integer("samples"), 1, 48),
               picture = std::min(given.integer("picture"), mostPixels);

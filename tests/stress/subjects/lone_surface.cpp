@@ -134,12 +134,20 @@ bool seesGroundAlone(const LoneSurface& surface) {
     return true;
 }
 
-double pixelsBeside(const Scene& scene, double snap, int pictureSize) {
+Verdict nothingSeen() {
+    Verdict verdict;
+    verdict.refusal = "nothing is compared: rounded, no camera fits between the ground and what is above it";
+    return verdict;
+}
+
+double pixelsBeside(const Scene& scene, double snap, int pictureSize, const glm::dvec3& p) {
     const glm::dmat4 m = clipFromWorld(scene.cameras[0], 1.0);
+    const double w = (m * glm::dvec4(p, 1.0)).w;
     const glm::dvec3 largest = glm::max(glm::abs(scene.bounds.lower), glm::abs(scene.bounds.upper));
     glm::dvec4 sizes = glm::abs(m[3]);
     for (int i = 0; i < 3; ++i) sizes += glm::abs(m[i]) * largest[i];
-    return snap + 0.5 * pictureSize * transformOperations * 0x1p-24 * std::max(sizes.x, sizes.y);
+    const double rounding = transformOperations * 0x1p-24 * (std::max(sizes.x, sizes.y) + sizes.w) / w;
+    return snap + 0.5 * pictureSize * rounding;
 }
 
 bool besideSmallCaster(const LoneSurface& surface, const LightFrustum& frustum, int mapSize,

@@ -10,10 +10,11 @@
 
 namespace penumbra::stress {
 
-std::vector<Receiver> receiversOf(const Scene& scene, std::uint32_t triangle, const glm::dvec3& normal) {
+std::vector<Receiver> receiversOf(const Scene& scene, std::uint32_t triangle, double minimumArea,
+                                  const glm::dvec3& normal) {
     AccumulationOptions options;
     options.texelBudget = 4;
-    options.minimumArea = 1e-4f;
+    options.minimumArea = float(minimumArea);
     std::vector<Receiver> receivers = findReceivers(scene, options.receiverRequest(scene));
     std::erase_if(receivers, [&](const Receiver& r) {
         return glm::dot(r.normal, normal) < 0.0 ||
@@ -50,6 +51,12 @@ double unoccluded(const Receiver& receiver, const Light& light, const glm::ivec2
     double sum = 0.0;
     for (const auto& polygon : light.polygons) sum += formFactor(x, receiver.normal, polygon);
     return std::numbers::pi * sum;
+}
+
+double halfSubpixel() {
+    GLint bits = 0;
+    glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+    return std::ldexp(0.5, -std::max(bits, 4));  // both APIs promise at least 4
 }
 
 double texelsBeside(const Receiver& receiver, const glm::dvec3& p) {

@@ -53,7 +53,7 @@ double rounding(int directions) {
 
 // --- 09: rays ---
 
-/// A segment of rays that floats are free to miss: decisiveUlps of ray_tracer.h's shadow rays.
+/// What a ray meets by less than decisiveUlps, floats may miss (shadow_packet.h).
 Open exactRays(const LoneSurface& surface, const std::vector<Triangle>& triangles, const glm::dvec3& p,
                const glm::dvec3& n, int count, bool uniform, double range, std::uint32_t seed) {
     const glm::dmat3 worldFromNormal = frameAround(n);
@@ -77,7 +77,7 @@ Open exactRays(const LoneSurface& surface, const std::vector<Triangle>& triangle
 Verdict checkRays(const Case& given) {
     Verdict verdict;
     const LoneSurface surface = shadowedSurface(given);
-    if (!seesGroundAlone(surface)) return verdict;
+    if (!seesGroundAlone(surface)) return nothingSeen();
     const int variant = given.integer("variant"), count = std::clamp(given.integer("samples"), 1, 32),
               picture = std::min(given.integer("picture"), mostPixels);
     const bool uniform = variant % 2 == 1;
@@ -174,7 +174,7 @@ std::vector<SkyTest> skyTests(const Scene& scene, int count, int mapSize, DepthF
 Verdict checkMaps(const Case& given) {
     Verdict verdict;
     const LoneSurface surface = shadowedSurface(given);
-    if (!seesGroundAlone(surface)) return verdict;
+    if (!seesGroundAlone(surface)) return nothingSeen();
     const int count = std::clamp(given.integer("samples"), 1, 32), mapSize = given.integer("map-size"),
               picture = std::min(given.integer("picture"), mostPixels);
     const std::string named = given.choice("depth-format"), format = named == "32f-reversed" ? "32f" : named;
@@ -191,7 +191,8 @@ Verdict checkMaps(const Case& given) {
     const double pixel = glm::length(surface.point(1, 0, picture) - surface.point(0, 0, picture));
     // Slopes and normals come from differences of neighbouring pixels' positions, each of a few roundings.
     const double reach = largestCoordinate(surface.scene.bounds), unsure = 8.0 * 0x1p-24 * reach / pixel;
-    const double metres = pixel * pixelsBeside(surface.scene, 0x1p-9, picture) + 4.0 * 0x1p-24 * reach;
+    const double metres = pixel * pixelsBeside(surface.scene, 0x1p-9, picture, surface.point(0, 0, picture)) +
+                          4.0 * 0x1p-24 * reach;
     double off = 0.0, settled = 0.0;
     for (int y = 0; y < picture; ++y) {
         for (int x = 0; x < picture; ++x) {
