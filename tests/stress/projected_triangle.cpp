@@ -46,23 +46,18 @@ ProjectedTriangle::ProjectedTriangle(const glm::dmat4& textureFromWorld, const g
             std::max(corner[(i + 1) % 3].z, off.nearest) * std::max(corner[(i + 2) % 3].z, off.nearest);
         longest = std::max(longest, length / q);
     }
-    isLine_ = isLine_ || !(volume_ > 0.0);
     const double q = std::max(corner[0].z, off.nearest) * std::max(corner[1].z, off.nearest) *
                      std::max(corner[2].z, off.nearest);
     slenderness_ = longest * longest * q / volume_;
 }
 
 Cover ProjectedTriangle::covers(const glm::dvec2& at) const {
-    // Two corners in one place stay so: nothing is drawn. Rounded apart, they are far below a texel's step.
+    // Two corners in one place stay there: nothing is drawn. Three in a row may be moved apart.
     if (isLine_) return Cover::no;
-    double least = infinity, most = -infinity;
-    for (const glm::dvec3& edge : edges_) {
-        const double inside = glm::dot(edge, glm::dvec3(at, 1.0));
-        least = std::min(least, inside), most = std::max(most, inside);
-    }
+    double least = infinity;
+    for (const glm::dvec3& edge : edges_) least = std::min(least, glm::dot(edge, glm::dvec3(at, 1.0)));
     if (least > margin_) return Cover::yes;
-    // A sliver may turn over.
-    return least >= -margin_ || most <= margin_ ? Cover::maybe : Cover::no;
+    return least >= -margin_ ? Cover::maybe : Cover::no;
 }
 
 double ProjectedTriangle::distance(const glm::dvec2& at) const {
