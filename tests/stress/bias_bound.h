@@ -29,8 +29,8 @@ class BiasBound {
 
     /// Window depth.
     double bias(const TapReach& reach = {}) const;
-    /// What chapter 03 asks for where the slope (over the whole map) is known exactly, however steep: what the
-    /// depth of a texel and that of the surface in it may differ by.
+    /// What chapter 03 asks for where the slope (over the whole map) is known exactly, however steep: what
+    /// the depth of a texel and that of the surface in it may differ by.
     double asked(const glm::dvec2& slope) const;
     /// dz/ds and dz/dt over the whole map.
     const glm::dvec2& slope() const { return slope_; }
