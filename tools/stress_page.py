@@ -36,6 +36,34 @@ held, and tested, up to a thousand scene sizes aside, from where a scene is thre
 farther out is measured:
 """
 
+EXACT = """## Against exact geometry
+
+Pictures are not compared with pictures. Of each pixel the same tests are made that the chapter makes - the same taps, the
+same rays, the same light points - but each is decided in double, from the triangles themselves: lit, dark, or open, if an
+edge comes nearer than float arithmetic and the rasteriser's grid can tell, or the gap is less than twice the derived bias.
+What a chapter draws must lie between the share that is surely lit and that with all open tests lit, to the rounding of the
+sum. So far from any edge it must be equal. The figures *of which every test is known* say that there are such pixels in
+half-shadow, where an error would show: a disk that is a thirtieth too small, or a bias that is a third too large, fails a
+case in some hundred.
+"""
+
+LEAKS = """## Leaks, by the angle of the light
+
+A sheet hangs over the ground, as far off as the bias may reach and what the depths of texel and ground may be off by;
+everything under it must be dark, up to 89.9 degrees. The more the light grazes, the more often that distance is more than
+the scene holds (its shadow falls beside the picture): then nothing is promised, and nothing is compared. The largest gap, in
+scene sizes, is what a bias costs at worst there:
+"""
+
+ENERGY = """## No light is made
+
+Chapter 08 may nowhere draw more light than arrives with nothing in between: Lambert's formula in double at the centres of
+the texels that a pixel is blended from, or at the point itself where a surface has no texture. What is more than that must
+be less than the derived rounding of the sums and of the blend. Without a texture Lambert's formula is worked out in floats,
+in which the edges of a small light all but cancel: what is left is off by a fixed number of roundings of the *light's
+radiance*, however little of it arrives. The last figure is that, as a multiple of what does.
+"""
+
 
 def number(value):
     return value if isinstance(value, str) else f"{value:.3g}"
@@ -48,7 +76,7 @@ def table(head, rows):
 
 def summary(report):
     state = "nothing failed" if report["failed"] == 0 else f"{report['failed']} failed"
-    return (f"Seed {report['seed']}: {report['cases']} cases, {report['refused']} refused in one line, {state}; "
+    return (f"Seed {report['seed']}: {report['cases']} cases, {report['refused']} refused or without a promise, {state}; "
             f"{report['cpu_seconds']:.0f} s of CPU, {report['cases_per_second']:.0f} cases a second.\n")
 
 
@@ -80,9 +108,39 @@ def worst(report):
     return text
 
 
+def subjectNamed(report, name):
+    return next((one for one in report["subjects"] if one["name"] == name), None)
+
+
+def exactGeometry(report):
+    """What the figures of tests decided in double mean, and how many pixels were settled."""
+    rows = []
+    for name in ("depth", "kernel", "light-points", "sky-rays", "sky-tests"):
+        for figure in (subjectNamed(report, name) or {"worst": []})["worst"]:
+            rows.append((f"`{name}`", figure["name"], number(figure["value"])))
+    return EXACT + "\n" + table(("subject", "figure", "largest"), rows) if rows else ""
+
+
+def leaks(report):
+    """How deep a bias may reach under a grazing light, and how often that is deeper than the scene."""
+    pieces = (subjectNamed(report, "leak") or {"bins": {}})["bins"].get("light-angle", [])
+    gap, lit = "gap that shadows, of the scene's size", "pixels lit through a sheet farther off than the bound"
+    rows = [(piece["from"], piece["cases"], piece["refused"], number(piece["worst"].get(gap, 0.0)),
+             number(piece["worst"].get(lit, 0.0))) for piece in pieces]
+    return LEAKS + "\n" + table(("degrees, from", "cases", "nothing promised", gap, lit), rows) if rows else ""
+
+
+def energy(report):
+    """What chapter 08 draws beyond what arrives."""
+    figures = (subjectNamed(report, "accumulation") or {"worst": []})["worst"]
+    rows = [(figure["name"], number(figure["value"])) for figure in figures
+            if figure["name"].startswith("light gained")]
+    return ENERGY + "\n" + table(("figure", "largest"), rows) if rows else ""
+
+
 def refusals(report):
     rows = [(f"`{one['name']}`", why, times) for one in report["subjects"] for why, times in one["refusals"].items()]
-    return "## What is refused\n\n" + table(("subject", "the line", "times"), rows) if rows else ""
+    return "## What is refused, or says nothing\n\n" + table(("subject", "the line", "times"), rows) if rows else ""
 
 
 def failures(report):
@@ -106,8 +164,8 @@ def floatEnds(report):
 
 
 def pageOf(report):
-    parts = [HEAD, summary(report), failures(report), subjects(report), floatEnds(report), worst(report), refusals(report),
-             coverage(report)]
+    parts = [HEAD, summary(report), failures(report), subjects(report), exactGeometry(report), leaks(report), energy(report),
+             floatEnds(report), worst(report), refusals(report), coverage(report)]
     return "\n".join(part for part in parts if part)
 
 

@@ -17,8 +17,11 @@ vec3 towardsLight(vec3 x) {
     return uLightType == lightDirectional ? -uLightDirection : uLightPosition - x;
 }
 
+// Floats far from their origin may have a surface where the light is: it has no direction there, and sends nothing.
 vec3 directionToLight(vec3 x) {
-    return uLightType == lightDirectional ? -uLightDirection : normalize(uLightPosition - x);
+    vec3 toLight = towardsLight(x);
+    bool none = uLightType == lightDirectional || !(dot(toLight, toLight) > 0.0);
+    return none ? -uLightDirection : normalize(toLight);
 }
 
 // Unoccluded irradiance on a plane at x that faces the light.
@@ -33,5 +36,6 @@ vec3 facingIrradiance(vec3 x) {
     } else if (uLightType == lightArea) {
         strength = max(along, 0.0);
     }
-    return uLightEmission * strength / dot(toLight, toLight);
+    float squared = dot(toLight, toLight);
+    return squared > 0.0 ? uLightEmission * strength / squared : vec3(0.0);
 }

@@ -10,9 +10,8 @@ inline const std::vector<std::string> anySceneAxes{
     "chapter", "light-type", "depth-format", "shape",   "light-angle", "scale",      "distance",
     "aside",   "fov",        "map-size",     "picture", "radius",      "light-size", "variant"};
 
-/// Axes: anySceneAxes. The ground is triangles 0 and 1. Chapter 08 gets an area light. `lowered`: metres by
-/// which the other triangles lie deeper, where they shadow nothing.
-Scene anyScene(const Case& given, double lowered = 0.0);
+/// Axes: anySceneAxes. The ground is triangles 0 and 1. Chapter 08 gets an area light.
+Scene anyScene(const Case& given);
 /// The parameters that go with it: few samples, small textures.
 Settings settingsOf(const Case& given);
 /// What a chapter has to be kept apart for (see shown).

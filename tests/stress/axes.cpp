@@ -32,8 +32,11 @@ Axis choice(const char* name, const char* help, std::vector<std::string> choices
 
 std::vector<Axis> makeAxes() {
     return {
-        choice("chapter", "which chapter draws", {"02", "03", "04", "05", "06", "07", "08", "10", "11"}),
+        choice("chapter", "which chapter draws",
+               {"02", "03", "04", "05", "06", "07", "08", "10", "11", "00", "01", "09"}),
         choice("filter", "which chapter filters", {"04", "05", "06", "07"}),
+        choice("kernel", "what is tested around a point: chapters 03, 04, 04 blended, 05 and 06",
+               {"point", "square", "blended", "disk", "jitter"}),
         choice("light-type", "kind of light", {"directional", "spot", "point"}),
         choice("method", "how the bias is spent",
                {"slope", "receiver-plane", "normal-offset", "polygon-offset"}),

@@ -1,4 +1,4 @@
-// Every chapter that draws with OpenGL, by its number.
+// Every chapter, by its number.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace penumbra::stress {
 
-/// A new one of "02" to "11". Throws Error for another.
+/// A new one of "00" to "11". Throws Error for another.
 std::unique_ptr<Chapter> makeChapter(const std::string& number);
 /// The views of a chapter, color and visibility among them where it has these.
 std::vector<std::string> viewsOf(const std::string& number);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/error.h"
+#include "tests/stress/projected_triangle.h"
 #include "tests/stress/sweep.h"
 
 namespace penumbra::stress {
@@ -190,6 +191,51 @@ TEST(StressSweep, TheReportIsJson) {
     EXPECT_EQ(json.at("cases"), 500);
     EXPECT_EQ(json.at("subjects").at(0).at("bins").at("shape").size(), axisNamed("shape").choices.size());
     EXPECT_NE(summaryOf(result).find("500 cases"), std::string::npos);
+}
+
+/// Of ten texels, w = 1: x and y are s and t.
+ProjectedTriangle flatTriangle(const Triangle& triangle) {
+    return {glm::dmat4(1.0), glm::dvec2(10.0), triangle, {.snap = 0.1}};
+}
+
+TEST(StressOracle, ATriangleSurelyCoversWhatIsInsideByItsMargin) {
+    const Triangle corners = {glm::dvec3(0.2, 0.2, 0.5), {0.8, 0.2, 0.5}, {0.2, 0.8, 0.7}};
+    const Triangle turned = {corners[0], corners[2], corners[1]};
+    for (const ProjectedTriangle& t : {flatTriangle(corners), flatTriangle(turned)}) {
+        EXPECT_EQ(t.covers({2.5, 2.5}), Cover::yes);
+        EXPECT_EQ(t.covers({2.1, 4.0}), Cover::maybe);
+        EXPECT_EQ(t.covers({1.9, 4.0}), Cover::maybe);
+        EXPECT_EQ(t.covers({1.8, 4.0}), Cover::no);
+        EXPECT_EQ(t.covers({6.0, 6.0}), Cover::no);
+        EXPECT_NEAR(t.depth({2.0, 5.0}), 0.6, 1e-12);
+        EXPECT_NEAR(t.slope().y, 0.2 / 6.0, 1e-12);
+        EXPECT_EQ(t.least(), 0.5);
+        EXPECT_EQ(t.most(), 0.7);
+    }
+}
+
+TEST(StressOracle, ATriangleThroughTheLightCoversOnlyWhatIsBeforeIt) {
+    // Perspective along z, q = z: one corner lies behind the eye.
+    glm::dmat4 perspective(1.0);
+    perspective[2][3] = 1.0, perspective[3][3] = 0.0;
+    const Triangle corners = {glm::dvec3(1, 1, 2), {3, 1, 2}, {2, 5, -1}};
+    const ProjectedTriangle t(perspective, glm::dvec2(1.0), corners, {.snap = 0.01, .nearest = 0.1});
+    EXPECT_EQ(t.covers({1.0, 0.6}), Cover::yes);  // from its near edge, at t = 1/2, upwards without end
+    EXPECT_EQ(t.covers({30.0, 50.0}), Cover::yes);
+    EXPECT_EQ(t.covers({1.0, 0.4}), Cover::no);
+    EXPECT_EQ(t.covers({-1.5, -4.0}), Cover::no) << "the mirrored image";
+    EXPECT_NEAR(t.distance({1.0, 0.5}), 2.0, 1e-12);
+    EXPECT_LT(t.distance({1.0, 0.6}), 2.0);
+}
+
+TEST(StressOracle, OfASliverNothingIsSureAndALineIsNotDrawn) {
+    const ProjectedTriangle sliver = flatTriangle({glm::dvec3(0.1, 0.5, 0), {0.9, 0.5, 0}, {0.5, 0.501, 0}});
+    EXPECT_EQ(sliver.covers({5.0, 5.005}), Cover::maybe);
+    EXPECT_EQ(sliver.covers({5.0, 5.2}), Cover::no);
+    EXPECT_EQ(sliver.covers({5.0, 4.8}), Cover::no);
+    EXPECT_GT(sliver.slenderness(), 700.0);
+    const ProjectedTriangle line = flatTriangle({glm::dvec3(0.1, 0.5, 0), {0.9, 0.5, 0}, {0.9, 0.5, 0}});
+    EXPECT_EQ(line.covers({5.0, 5.0}), Cover::no);
 }
 
 }  // namespace

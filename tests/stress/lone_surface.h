@@ -26,6 +26,20 @@ struct LoneSurface {
 /// near-far, variant.
 LoneSurface loneSurface(const Case& given);
 
+/// The same ground and small triangle, seen from straight above by a flat camera that lies so low that
+/// nothing else comes before it; triangles of any shape stand higher, where they shadow what is in the
+/// picture. The ground is triangle 0. Axes: those of loneSurface, and shape.
+LoneSurface shadowedSurface(const Case& given);
+/// Does that camera see the ground and nothing else? Rounded to a grid that is coarser than the camera is
+/// high, by doubles far from the origin of the file or by floats far aside, it may not.
+bool seesGroundAlone(const LoneSurface& surface);
+/// What is said of it then.
+Verdict nothingSeen();
+
+/// Pixels by which the vertex transform and a rasteriser that snaps by `snap` pixels may have what a square
+/// picture shows at `p` beside its place.
+double pixelsBeside(const Scene& scene, double snap, int pictureSize, const glm::dvec3& p);
+
 /// Does the shadow of the small triangle come within `texels` of `p` on a map of that size?
 bool besideSmallCaster(const LoneSurface& surface, const LightFrustum& frustum, int mapSize,
                        const glm::dvec3& p, double texels);

@@ -42,6 +42,26 @@ class StressPageTest(unittest.TestCase):
         self.assertIn("| 1 | 10 | 0.25 |", page)
         self.assertNotIn("unused", page)
 
+    def testExplainsTheSubjectsThatItHas(self):
+        self.assertNotIn("## Leaks", stress_page.pageOf(REPORT))
+        report = json.loads(json.dumps(REPORT))
+        gap = "gap that shadows, of the scene's size"
+        leak = {"name": "leak", "claim": "shadows", "cases": 9, "refused": 4, "failed": 0, "refusals": {}, "failures": [],
+                "worst": [],
+                "bins": {"light-angle": [{"from": "80.91", "cases": 9, "refused": 4, "failed": 0, "worst": {gap: 0.06}}]}}
+        gained = {"name": "accumulation", "claim": "no light", "cases": 1, "refused": 0, "failed": 0, "refusals": {},
+                  "failures": [], "bins": {},
+                  "worst": [{"name": "light gained by a shadow, over the rounding", "value": 0.077, "command": "x"},
+                            {"name": "visibility above 1", "value": 0, "command": "x"}]}
+        kernel = {"name": "kernel", "claim": "share", "cases": 1, "refused": 0, "failed": 0, "refusals": {}, "failures": [],
+                  "bins": {}, "worst": [{"name": "beside, over its rounding", "value": 0.5, "command": "x"}]}
+        report["subjects"] += [leak, gained, kernel]
+        page = stress_page.pageOf(report)
+        self.assertIn("| 80.91 | 9 | 4 | 0.06 | 0 |", page)
+        self.assertIn("| light gained by a shadow, over the rounding | 0.077 |\n", page)
+        self.assertNotIn("| visibility above 1 | 0 |\n", page)
+        self.assertIn("| `kernel` | beside, over its rounding | 0.5 |", page)
+
     def testAReportWithoutFailuresHasNoSuchHeading(self):
         quiet = json.loads(json.dumps(REPORT))
         quiet["failed"] = 0

@@ -10,17 +10,23 @@
 
 namespace penumbra::stress {
 
-Scene anyScene(const Case& given, double lowered) {
+namespace {
+
+std::string methodOf09(const Case& given) {
+    const std::vector<std::string> methods{"rays", "hemisphere", "vertices", "triangles", "bits"};
+    return methods[std::size_t(given.integer("variant") / 5) % methods.size()];
+}
+
+}  // namespace
+
+Scene anyScene(const Case& given) {
     Dice dice(std::uint64_t(given.integer("variant")));
     const glm::dvec3 eye(0.4, 1.5, 2.2);
     const Placement placement(given, eye, dice);
     std::vector<Triangle> triangles{{glm::dvec3(-2, 0, 2), glm::dvec3(2, 0, 2), glm::dvec3(2, 0, -2)},
                                     {glm::dvec3(-2, 0, 2), glm::dvec3(2, 0, -2), glm::dvec3(-2, 0, -2)}};
     const TrianglePlace place{{0.1, 0.4, -0.1}, 0.8, {0, 1, 0}};
-    for (Triangle t : trianglesOf(given.choice("shape"), place, dice)) {
-        for (glm::dvec3& p : t) p.y -= lowered;
-        triangles.push_back(t);
-    }
+    for (const Triangle& t : trianglesOf(given.choice("shape"), place, dice)) triangles.push_back(t);
     Scene scene = drawnScene(placement.triangles(std::move(triangles)));
     const double angle = given.number("light-angle") * radians;
     const glm::dvec3 toLight(std::sin(angle), std::cos(angle), 0.0);
@@ -38,6 +44,12 @@ Scene anyScene(const Case& given, double lowered) {
 Settings settingsOf(const Case& given) {
     const std::string chapter = given.choice("chapter");
     Settings settings;
+    if (chapter == "00" || chapter == "09") {
+        const std::string method = chapter == "09" ? methodOf09(given) : "";
+        settings.emplace_back("samples", method == "bits" ? "64" : "8");
+        if (chapter == "09") settings.emplace_back("method", method);
+        return settings;
+    }
     settings.emplace_back("map-size", std::to_string(given.integer("map-size")));
     if (chapter == "08") {
         settings.emplace_back("samples", "16");

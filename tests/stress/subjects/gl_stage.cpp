@@ -17,7 +17,7 @@ struct Stage {
 
 /// Chapters that keep something of the scene they were loaded with.
 bool keepsScene(const std::string& number) {
-    return number == "07" || number == "08" || number == "11";
+    return number == "00" || number == "07" || number == "08" || number == "09" || number == "11";
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chapters/01_depth_from_light/depth_errors.h"
 #include "common/scene/light.h"
+#include "tests/stress/triangle_shapes.h"
 
 namespace penumbra::stress {
 namespace {
@@ -24,6 +26,30 @@ std::vector<Triangle> smallCaster(const Case& given, const glm::dvec3& toLight) 
     return {{centre + size * a, centre - size * a + size * b, centre - size * b}};
 }
 
+constexpr double cameraHeight = 0.005;  // metres
+constexpr double seenGround = 1.5;      // metres, of a side of the picture
+
+/// The small one, and those of the case's shape on the way from the middle of the picture to the light; above
+/// the camera.
+std::vector<Triangle> casters(const Case& given, const glm::dvec3& toLight, Dice& dice) {
+    // Towards a light that grazes, what is high enough to be in the way is far away: there it hangs lower.
+    const double away = std::min(dice.between(0.2, 0.8) / toLight.y, 1.5);
+    const glm::dvec3 beside(dice.between(-0.3, 0.3), 0.0, dice.between(-0.3, 0.3));
+    const TrianglePlace place{away * toLight + beside, dice.magnitude(0.05, 0.6), {0, 1, 0}};
+    std::vector<Triangle> triangles = trianglesOf(given.choice("shape"), place, dice);
+    for (const Triangle& t : smallCaster(given, toLight)) triangles.push_back(t);
+    for (Triangle& t : triangles)
+        for (glm::dvec3& p : t) p.y = std::max(p.y, 2.0 * cameraHeight);
+    return triangles;
+}
+
+std::vector<Triangle> groundTriangle(double azimuth) {
+    const auto corner = [azimuth](double turn) {
+        return 4.0 * glm::dvec3(std::cos(azimuth + turn), 0.0, -std::sin(azimuth + turn));
+    };
+    return {{corner(0.0), corner(2.1), corner(4.2)}};
+}
+
 }  // namespace
 
 LoneSurface loneSurface(const Case& given) {
@@ -35,15 +61,35 @@ LoneSurface loneSurface(const Case& given) {
     const Placement placement(given, eye, dice);
     const double angle = given.number("light-angle") * radians, fov = given.number("fov") * radians;
     const glm::dvec3 toLight(std::sin(angle), std::cos(angle), 0.0);
-    const auto corner = [azimuth](double turn) {
-        return 4.0 * glm::dvec3(std::cos(azimuth + turn), 0.0, -std::sin(azimuth + turn));
-    };
-    std::vector<Triangle> triangles = smallCaster(given, toLight);
-    triangles.insert(triangles.begin(), {corner(0.0), corner(2.1), corner(4.2)});
+    std::vector<Triangle> triangles = groundTriangle(azimuth);
+    for (const Triangle& t : smallCaster(given, toLight)) triangles.push_back(t);
     LoneSurface surface;
     surface.scene = drawnScene(placement.triangles(std::move(triangles)));
     surface.scene.lights.push_back(lightOf(given, placement, {0, 0, 0}, toLight, lightDistance, 0.5 * fov));
     surface.scene.cameras.push_back(cameraOf(placement, eye, {0, 0, 0}, fov));
+    surface.fitToView = given.integer("variant") % 2 == 1;
+    return surface;
+}
+
+LoneSurface shadowedSurface(const Case& given) {
+    Dice dice(std::uint64_t(given.integer("variant")));
+    const double azimuth = given.integer("variant") == 0 ? 1.0 : dice.between(0.0, 6.28);
+    const glm::dvec3 eye(0.0, cameraHeight, 0.0);
+    const Placement placement(given, eye, dice);
+    const double angle = given.number("light-angle") * radians;
+    const glm::dvec3 toLight(std::sin(angle), std::cos(angle), 0.0);
+    std::vector<Triangle> triangles = groundTriangle(azimuth);
+    for (const Triangle& t : casters(given, toLight, dice)) triangles.push_back(t);
+    LoneSurface surface;
+    surface.scene = drawnScene(placement.triangles(std::move(triangles)));
+    surface.scene.lights.push_back(
+        lightOf(given, placement, {0, 0, 0}, toLight, lightDistance, 0.5 * given.number("fov") * radians));
+    surface.scene.cameras.push_back(cameraOf(placement, eye, {0, 0, 0}, 1.0));
+    Camera& camera = surface.scene.cameras[0];
+    camera.orthographic = true;
+    camera.height = placement.length(seenGround);
+    camera.near = placement.length(0.1 * cameraHeight);
+    camera.far = placement.length(1.5 * cameraHeight);
     surface.fitToView = given.integer("variant") % 2 == 1;
     return surface;
 }
@@ -74,6 +120,34 @@ bool LoneSurface::behindSpot(const glm::dvec3& p) const {
     const Light& light = scene.lights[0];
     const glm::dvec3 v = p - light.position;
     return light.type == LightType::spot && !(glm::dot(v, light.direction) > 0.01 * glm::length(v));
+}
+
+bool seesGroundAlone(const LoneSurface& surface) {
+    const Camera& camera = surface.scene.cameras[0];
+    const auto depth = [&](const glm::dvec3& p) { return glm::dot(p - camera.position, camera.forward); };
+    for (const glm::ivec2& pixel : {glm::ivec2(0, 0), {0, 1}, {1, 0}, {1, 1}}) {
+        const double ground = depth(surface.point(pixel.x, pixel.y, 2));
+        if (!(ground > 2.0 * camera.near && ground < 0.9 * camera.far)) return false;
+    }
+    for (std::size_t i = 3; i < surface.scene.positions.size(); ++i)
+        if (!(depth(glm::dvec3(surface.scene.positions[i])) < 0.0)) return false;
+    return true;
+}
+
+Verdict nothingSeen() {
+    Verdict verdict;
+    verdict.refusal = "nothing is compared: rounded, no camera fits between the ground and what is above it";
+    return verdict;
+}
+
+double pixelsBeside(const Scene& scene, double snap, int pictureSize, const glm::dvec3& p) {
+    const glm::dmat4 m = clipFromWorld(scene.cameras[0], 1.0);
+    const double w = (m * glm::dvec4(p, 1.0)).w;
+    const glm::dvec3 largest = glm::max(glm::abs(scene.bounds.lower), glm::abs(scene.bounds.upper));
+    glm::dvec4 sizes = glm::abs(m[3]);
+    for (int i = 0; i < 3; ++i) sizes += glm::abs(m[i]) * largest[i];
+    const double rounding = transformOperations * 0x1p-24 * (std::max(sizes.x, sizes.y) + sizes.w) / w;
+    return snap + 0.5 * pictureSize * rounding;
 }
 
 bool besideSmallCaster(const LoneSurface& surface, const LightFrustum& frustum, int mapSize,

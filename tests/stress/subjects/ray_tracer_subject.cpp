@@ -143,8 +143,20 @@ void shadows(Verdict& verdict, const Case& given, const RayTracer& tracer, Dice&
     rays.judgeDoubles(verdict, exact, "exact scene");
 }
 
-/// Of a triangle as it is seen along `d`: a barycentric coordinate is uncertain by the rounding over its
-/// height, and its edge is so long.
+/// Of a triangle as it is seen along `d`: its longest edge over its smallest height.
+///
+/// The hit of a camera ray is put on the triangle by barycentric coordinates, and what is off by x sideways
+/// in one of them, over a height, moves the hit by x times the slenderness s. In double ulps (2^-52 L, L the
+/// largest coordinate in play), with R <= 2 sqrt(3) L the distance of the farthest corner:
+/// - 3.5 s: the corners relative to the eye, sqrt(3) / 2 at either end of an edge, for two coordinates.
+/// - 28 s: the two edge functions d . (a + b) x (b - a), seven roundings of a sum of products below
+///   2 / sqrt(3) |b - a| 2 R each: 14, as in shadow_packet.h, for floats.
+/// - 14 s: their sum, by which both are divided; together they are at most 1.
+/// - 8, of any triangle: a + u (b - a) + v (c - a), and the ray's own direction, of length 1 but for its
+/// rounding,
+///   over the distance R.
+/// With s >= 2 / sqrt(3) that is less than 53 s: `doubleUlps` holds it. The worst that was found is on the
+/// page.
 double slenderness(const Triangle& t, const glm::dvec3& d) {
     const double longest =
         std::max({glm::length(t[1] - t[0]), glm::length(t[2] - t[1]), glm::length(t[0] - t[2])});
