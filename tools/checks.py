@@ -7,6 +7,7 @@ import xml.etree.ElementTree as xml
 from concurrent.futures import ThreadPoolExecutor
 
 import build
+import house
 import regions
 import tidy
 
@@ -113,7 +114,7 @@ def withoutOsmesa():
 def endurance():
     """What ./test does with some hundred frames and two dozen kills, for as long as it takes to find a slow leak."""
     names = ["endurance_chapters", "unit_faults"]
-    build.build("release")
+    build.build("release", [*names, "make_assets", *house.chapterNames(ROOT)])  # who is killed is a chapter's program
     passed = failed = 0
     for name, more in zip(names, ({"PENUMBRA_ENDURANCE_FRAMES": "10000"}, {"PENUMBRA_KILLS": "200"})):
         ran = run([build.folder("release") / "bin" / name], env={**os.environ, **more})

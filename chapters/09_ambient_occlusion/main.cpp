@@ -79,7 +79,8 @@ int main(int argc, char** argv) {
          {"irradiance", "light that arrives", false, false, 0.31830988618379067},
          {"work", "blue: nothing could be in the way; grey: all rays agree; red: they do not", false, false,
           0.0},
-         {"profile", "ambient visibility along the middle row, and the surface below it", false, false,
-          0.0}}};
+         {"profile", "ambient visibility along the middle row, and the surface below it", false, false, 0.0}},
+        true,
+        128};
     return runChapter<AmbientOcclusion>(info, argc, argv);
 }

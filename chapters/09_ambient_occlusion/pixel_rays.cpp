@@ -50,8 +50,8 @@ glm::dvec3 sunlight(const RayTracer& tracer, const Light& sun, const Hit& hit, c
 void PixelRays::tracePixel(const Frame& frame, const AmbientOptions& options, const SkyLight& light,
                            const glm::ivec2& pixel, Counts& counts) {
     const Ray ray = cameraRay(frame.camera, glm::dvec2(pixel) + 0.5, size_);
-    Hit& hit = hits_[std::size_t(pixel.y) * std::size_t(size_.x) + std::size_t(pixel.x)];
-    hit = tracer_.nearest(ray);
+    Hit hit = tracer_.nearest(ray);
+    if (pixel.y == size_.y / 2) middleRow_[std::size_t(pixel.x)] = hit;
     const std::size_t i = 4 * texel(pixel.x, pixel.y);
     if (!hit.valid) {
         std::fill_n(&valueTexels_[i], 4, 0.0f);
@@ -121,7 +121,7 @@ void PixelRays::start(const Frame& frame, const std::string& key, bool inParts) 
     size_ = frame.size;
     camera_ = frame.camera;
     const std::size_t pixels = std::size_t(size_.x) * std::size_t(size_.y);
-    hits_.assign(pixels, {});
+    middleRow_.assign(std::size_t(size_.x), {});
     valueTexels_.assign(4 * pixels, 0.0f);
     lightTexels_.assign(4 * pixels, 0.0f);
     counts_ = {};
@@ -159,7 +159,7 @@ void PixelRays::update(const Frame& frame, const AmbientOptions& options, bool i
         key_ = key;
         upload(size_);
     }
-    frame.work["primary_rays"] = std::int64_t(hits_.size());
+    frame.work["primary_rays"] = std::int64_t(size_.x) * size_.y;
     frame.work["rays_traced"] = traces ? counts_.traced : 0;
     frame.work["rays_saved"] = counts_.saved;
     frame.work["pixels_receiving"] = counts_.receiving;

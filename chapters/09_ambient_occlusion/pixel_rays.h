@@ -38,8 +38,9 @@ class PixelRays {
     GLuint values() const { return values_->id(); }
     GLuint light() const { return light_->id(); }
 
-    /// What each pixel sees, top row first, and its ambient visibility: of the latest update.
-    const std::vector<Hit>& hits() const { return hits_; }
+    /// What the pixels of the middle row see, and the ambient visibility of each pixel, top row first: of the
+    /// latest update. Other rows are forgotten: what a ray found takes eight times what the picture does.
+    const std::vector<Hit>& middleRow() const { return middleRow_; }
     float visibility(std::size_t pixel) const;
 
  private:
@@ -64,7 +65,7 @@ class PixelRays {
     glm::ivec2 size_{0};
     std::optional<Camera> camera_;
     std::string key_;
-    std::vector<Hit> hits_;
+    std::vector<Hit> middleRow_;
     std::vector<float> valueTexels_, lightTexels_;  ///< RGBA
     Counts counts_;
     int step_ = 0;  ///< side of the blocks that are being traced; 0: all is done

@@ -15,7 +15,7 @@ std::vector<std::optional<double>> heights(const Frame& frame, const PixelRays& 
     std::vector<std::optional<double>> result(static_cast<std::size_t>(frame.size.x));
     double low = 1e300, high = -1e300;
     for (std::size_t x = 0; x < result.size(); ++x) {
-        const Hit& hit = pixels.hits()[std::size_t(frame.size.y / 2) * std::size_t(frame.size.x) + x];
+        const Hit& hit = pixels.middleRow()[x];
         if (!hit.valid) continue;
         result[x] = hit.position.y;
         low = std::min(low, hit.position.y);

@@ -106,6 +106,8 @@ int main(int argc, char** argv) {
          {"ambient", "share of the sky that is seen, 0 to 1", true, false},
          {"bent-normal", "mean open direction: x, y, z as red, green, blue", false, false, 0.0},
          {"irradiance", "light that arrives", false, false, 0.31830988618379067},
-         {"work", "share of the directions that were looked up", true, true}}};
+         {"work", "share of the directions that were looked up", true, true}},
+        true,
+        176};
     return runChapter<AccumulatedOcclusionChapter>(info, argc, argv);
 }

@@ -80,10 +80,8 @@ VisibilitySums::VisibilitySums()
       resolve_("common/fullscreen.vert", "10_accumulated_occlusion/resolve.frag") {}
 
 void VisibilitySums::clear(const glm::ivec2& size) {
-    if (!sums_[0] || sums_[0]->size() != size) {
+    if (!sums_[0] || sums_[0]->size() != size)
         for (std::optional<TexturePair>& pair : sums_) pair.emplace(size);
-        resolved_.emplace(size);
-    }
     sums_[0]->clear();
 }
 
@@ -120,10 +118,10 @@ const TexturePair& VisibilitySums::resolve(int directions) {
     resolve_.setTexture("uReceived", GL_TEXTURE_2D, sums_[0]->second());
     resolve_.set("uPerDirection", 1.0f / float(directions));
     resolve_.prepareToDraw();
-    resolved_->bind();
+    sums_[1]->bind();
     glDisable(GL_DEPTH_TEST);
     triangle_.draw();
-    return *resolved_;
+    return *sums_[1];
 }
 
 std::vector<Program*> VisibilitySums::programs() {

@@ -59,17 +59,17 @@ class VisibilitySums {
     void clear(const glm::ivec2& size);
     /// Adds the batch to the sums of all receivers: one full-screen pass.
     void add(const Receivers& receivers, const SkyMaps& maps, const SkyBatch& added);
-    /// The means of all that was added, of `directions` directions.
+    /// The means of all that was added, of `directions` directions. They lie where the next sums will: the
+    /// next `add` overwrites them.
     const TexturePair& resolve(int directions);
-    const TexturePair& resolved() const { return *resolved_; }
+    const TexturePair& resolved() const { return *sums_[1]; }
     std::vector<Program*> programs();
 
  private:
     ProgramVariants add_;
     Program resolve_;
     FullscreenTriangle triangle_;
-    std::array<std::optional<TexturePair>, 2> sums_;  ///< [0]: the sums; [1]: those of the next pass
-    std::optional<TexturePair> resolved_;
+    std::array<std::optional<TexturePair>, 2> sums_;  ///< [0]: the sums; [1]: the means, or the next sums
 };
 
 }  // namespace penumbra

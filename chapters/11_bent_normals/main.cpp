@@ -118,6 +118,8 @@ int main(int argc, char** argv) {
          {"bent-normal", "B: x, y, z as red, green, blue", false, false, 0.0},
          {"diffuse", "the lamp's diffuse light, without any shadow"},
          {"work", "blue: all is open; dark: nothing is; red: in between, where B matters", false, false,
-          0.0}}};
+          0.0}},
+        true,
+        192};  // with --source maps all of chapter 10's
     return runChapter<BentNormals>(info, argc, argv);
 }

@@ -41,6 +41,10 @@ struct ChapterInfo {
     std::string idea;             ///< one line: the new idea
     std::vector<ViewInfo> views;  ///< color and visibility first
     bool needsGl = true;          ///< false: renders on the CPU (chapter 00)
+    /// What drawing takes of memory for each pixel, most: frame buffer, depth, the picture as it is read
+    /// back, as bytes and encoded, and what the chapter itself keeps for each pixel. Too little: a large
+    /// picture ends with the process killed in place of a line that says why.
+    int bytesPerPixel = 80;
 };
 
 /// Everything one frame needs. Positions are relative to scene.origin.

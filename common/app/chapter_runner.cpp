@@ -40,11 +40,26 @@ std::optional<int> runInWindow(ChapterSession& session) {
     return runWindow({.session = session, .context = context.get()});
 }
 
+/// What --compare-truth takes for each pixel: what two camera rays hit (PrimaryHits), and the exact answer,
+/// its mask and the picture compared with it.
+constexpr int truthBytesPerPixel = 320;
+
+std::uint64_t pixelsOf(const glm::ivec2& size) {
+    return std::uint64_t(size.x) * std::uint64_t(size.y);
+}
+
+/// What the picture will take, most. tests/unit/faults_test.cpp compares it with what it does take.
+std::uint64_t pictureBytes(const ChapterInfo& info, const Options& options, bool headless) {
+    if (!headless) return pixelsOf(options.windowSize) * std::uint64_t(info.bytesPerPixel);
+    const std::uint64_t drawn =
+        pixelsOf(options.size * options.antialias) * std::uint64_t(info.bytesPerPixel);
+    return drawn + (options.compareTruth ? pixelsOf(options.size) * truthBytesPerPixel : 0);
+}
+
 /// Refuses a picture that cannot be had. Under a limit of memory, says so should a library crash on it all
 /// the same.
 void requireMemory(const ChapterInfo& info, const Options& options, bool headless) {
-    const glm::ivec2 size = headless ? options.size * options.antialias : options.windowSize;
-    requireMemoryForPicture(std::uint64_t(size.x) * std::uint64_t(size.y));
+    requireMemoryForPicture(pictureBytes(info, options, headless));
     if (const auto limit = processMemoryLimit())
         sayOnCrash(
             fmt::format("{}: a library or the driver ended the program: not enough memory below {}, {} MB; "

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -28,14 +29,27 @@ void nearestFilter() {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-/// OpenGL's bottom row comes first, ours last.
+struct PixelFormat {
+    GLenum format, type;
+};
+
+/// What the bound framebuffer holds; OpenGL's bottom row comes first, ours last. Some rows at a time: the
+/// four channels of a large picture would take more memory than the picture itself.
 template <class Value, class Convert>
-FloatImage flipped(const std::vector<Value>& rgba, const glm::ivec2& size, int channels, Convert convert) {
+FloatImage readFlipped(const glm::ivec2& size, int channels, PixelFormat pixel, Convert convert) {
+    constexpr int pixelsAtOnce = 1 << 18;
+    const int band = std::clamp(pixelsAtOnce / size.x, 1, size.y);
+    std::vector<Value> rgba(std::size_t(band) * size.x * 4);
     FloatImage image(size.x, size.y, channels);
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x)
-            for (int c = 0; c < channels; ++c)
-                image.at(x, y, c) = convert(rgba[(std::size_t(size.y - 1 - y) * size.x + x) * 4 + c]);
+    for (int low = 0; low < size.y; low += band) {
+        const int rows = std::min(band, size.y - low);
+        glReadPixels(0, low, size.x, rows, pixel.format, pixel.type, rgba.data());
+        for (int row = 0; row < rows; ++row)
+            for (int x = 0; x < size.x; ++x)
+                for (int c = 0; c < channels; ++c)
+                    image.at(x, size.y - 1 - low - row, c) =
+                        convert(rgba[(std::size_t(row) * size.x + x) * 4 + c]);
+    }
     return image;
 }
 
@@ -80,15 +94,10 @@ void RenderTarget::bind() const {
 FloatImage RenderTarget::read(int channels) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    const std::size_t count = std::size_t(size_.x) * size_.y * 4;
-    if (format_ == GL_RGBA8) {
-        std::vector<GLubyte> bytes(count);
-        glReadPixels(0, 0, size_.x, size_.y, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
-        return flipped(bytes, size_, channels, [](GLubyte value) { return float(value) / 255.0f; });
-    }
-    std::vector<float> floats(count);
-    glReadPixels(0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT, floats.data());
-    return flipped(floats, size_, channels, [](float value) { return value; });
+    if (format_ == GL_RGBA8)
+        return readFlipped<GLubyte>(size_, channels, {GL_RGBA, GL_UNSIGNED_BYTE},
+                                    [](GLubyte value) { return float(value) / 255.0f; });
+    return readFlipped<float>(size_, channels, {GL_RGBA, GL_FLOAT}, [](float value) { return value; });
 }
 
 FloatImage readDepthTexture(GLuint texture, const glm::ivec2& size) {
@@ -109,9 +118,7 @@ FloatImage readDepthTexture(GLuint texture, const glm::ivec2& size) {
     program.setTexture("uDepth", GL_TEXTURE_2D, texture);
     program.prepareToDraw();
     FullscreenTriangle().draw();
-    std::vector<GLuint> values(std::size_t(size.x) * size.y * 4);
-    glReadPixels(0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_UNSIGNED_INT, values.data());
-    return flipped(values, size, 1, floatFromBits);
+    return readFlipped<GLuint>(size, 1, {GL_RGBA_INTEGER, GL_UNSIGNED_INT}, floatFromBits);
 }
 
 }  // namespace penumbra

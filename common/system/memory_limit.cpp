@@ -15,9 +15,6 @@ namespace {
 
 constexpr std::uint64_t megabyte = std::uint64_t(1) << 20;
 
-/// Frame buffer, depth, the picture as it is read back, as floats, as bytes and encoded.
-constexpr std::uint64_t bytesPerPixel = 64;
-
 /// The number in the line of a file that begins with `name`; none without such a line.
 std::optional<std::uint64_t> numberAfter(const char* file, const std::string& name) {
     std::ifstream in(file);
@@ -72,8 +69,7 @@ std::optional<MemoryLimit> processMemoryLimit() {
     return space ? space : data;
 }
 
-void requireMemoryForPicture(std::uint64_t pixels) {
-    const std::uint64_t picture = pixels * bytesPerPixel;
+void requireMemoryForPicture(std::uint64_t picture) {
     if (const auto limit = processMemoryLimit()) {
         const std::uint64_t needed = limit->libraries + picture;
         if (limit->left < needed)

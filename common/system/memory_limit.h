@@ -22,9 +22,10 @@ struct MemoryLimit {
 /// one that leaves less. Nothing if neither is.
 std::optional<MemoryLimit> processMemoryLimit();
 
-/// Throws Error unless a picture of so many pixels can be rendered here: below the limits of this process,
-/// with what the libraries take, and in the memory that the machine (or the container, Linux cgroup 2) has
-/// free. Linux hands out more memory than it has and kills who uses it, which nothing can report afterwards.
-void requireMemoryForPicture(std::uint64_t pixels);
+/// Throws Error unless a picture that takes so many bytes can be rendered here: below the limits of this
+/// process, with what the libraries take, and in the memory that the machine (or the container, Linux cgroup
+/// 2) has free. Linux hands out more memory than it has and kills who uses it, which nothing can report
+/// afterwards.
+void requireMemoryForPicture(std::uint64_t picture);
 
 }  // namespace penumbra

@@ -416,7 +416,7 @@ TEST(Chapter09Skips, APictureInPartsEndsAsTheWhole) {
         ASSERT_LT(++frames, 1000);
     } while (harness.work.count("rows_left") > 0);
     EXPECT_EQ(harness.work["rays_traced"], traced);
-    for (std::size_t i = 0; i < whole.hits().size(); ++i)
+    for (std::size_t i = 0; i < std::size_t(size.x) * std::size_t(size.y); ++i)
         ASSERT_EQ(whole.visibility(i), parts.visibility(i)) << i;
 }
 

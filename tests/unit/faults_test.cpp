@@ -219,6 +219,34 @@ TEST_F(FaultsSlow, WithLittleMemoryItIsOneLineAndNeverACrash) {
     expectSilence(runProgram(enough));
 }
 
+TEST_F(FaultsSlow, WhatAPictureTakesIsNotMoreThanWasForeseen) {
+    // Foreseen: of a picture that is refused, by how much more one of twice as many pixels would need.
+    const auto foreseen = [&](const std::string& chapter, const std::string& size) {
+        ProgramCall refused = call(chapter, {"--size", size, "--output", "a.png"});
+        refused.addressSpace = 2000 * megabyte;
+        const std::string said = runProgram(refused).err, before = "it needs about ";
+        const std::size_t at = said.find(before);
+        EXPECT_NE(at, std::string::npos) << said;
+        return at == std::string::npos ? 0.0 : std::atof(said.c_str() + at + before.size());
+    };
+    const auto taken = [&](const std::string& chapter, const std::string& size) {
+        ProgramCall of = call(chapter, {"--size", size, "--samples", "2", "--output", "a.exr"});
+        std::replace(of.arguments.begin(), of.arguments.end(), std::string("triangle.gltf"),
+                     std::string("contact"));  // which has what chapter 08 draws: an area light
+        const ProgramResult drawn = runProgram(of);
+        expectSilence(drawn);
+        return drawn.megabytes;
+    };
+    for (const std::string chapter :
+         {"08_accumulation", "09_ambient_occlusion", "10_accumulated_occlusion", "11_bent_normals"}) {
+        const double promised =
+            (foreseen(chapter, "16384x16384") - foreseen(chapter, "8192x16384")) / (8192.0 * 16384.0);
+        const double measured = (taken(chapter, "768x768") - taken(chapter, "256x256")) / (512.0 * 1024.0);
+        EXPECT_LE(measured, promised) << chapter << ": in megabytes a pixel";
+        EXPECT_LT(promised, 2.0 * measured) << chapter << ": pictures are refused that would fit";
+    }
+}
+
 TEST_F(FaultsSlow, ThePictureOfEightThousandPixelsASideIsRendered) {
     expectSilence(runProgram(
         call("02_shadow_test", {"--size", "8192x8192", "--view", "visibility", "--report", "r.json"})));

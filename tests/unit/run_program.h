@@ -23,6 +23,7 @@ struct ProgramResult {
     int status = -1;  ///< exit status, or -signal
     std::string out;
     std::string err;
+    double megabytes = 0.0;  ///< most that it held in memory
     long errorLines() const { return std::count(err.begin(), err.end(), '\n'); }
 };
 
@@ -68,8 +69,10 @@ inline ProgramResult runProgram(const ProgramCall& call) {
         ::kill(process, call.signal);
     }
     int status = 0;
-    ::waitpid(process, &status, 0);
+    rusage used{};
+    ::wait4(process, &status, 0, &used);
     ProgramResult result;
+    result.megabytes = double(used.ru_maxrss) / 1024.0;
     result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     result.out = bytesOf(printed / "out");
     result.err = bytesOf(printed / "err");
