@@ -37,8 +37,8 @@ WAYS = (
     Way("08 masks", "08_accumulation", SHADOW, BOTH, "samples", (4, 16, 64, 256),
         ("--method", "mask", "--samples", "{value}", "--others-samples", "{value}"),
         why="A light point costs one drawing of what is in between, for all pixels at once, and nothing is weighted "
-            "where all points agree. It makes the texture of every receiver, also what no pixel shows, and draws for "
-            "each receiver and light point: that is cheap for one plane, and dear for a thousand paving stones."),
+            "where all points agree. It makes the whole texture of every receiver that a pixel shows, and draws for "
+            "each receiver and light point: that is cheap for one plane, and dear for hundreds of paving stones."),
     Way("08 exact", "08_accumulation", SHADOW, BOTH[:1], "points", (0,), ("--method", "exact"),
         why="Cone subtraction where few triangles are in the way: no samples, and the error that is left is that of "
             "blending between texels."),
