@@ -22,6 +22,7 @@ namespace {
 
 constexpr int mostPixels = 24;
 constexpr double lightDistance = 3.0;
+constexpr double mostTexelsBeside = 4.0;
 
 /// shadowedSurface under a square light in the place of its light.
 LoneSurface underAreaLight(const Case& given) {
@@ -173,19 +174,18 @@ Off compare(const LoneSurface& surface, const Receiver& receiver, const std::vec
     for (int y = 0; y < V.height; ++y) {
         for (int x = 0; x < V.width; ++x) {
             const glm::dvec3 p = surface.point(x, y, V.width);
+            // More than a texel only so far aside that nothing is promised.
+            const double beside = std::min(2.0 * (texelsBeside(receiver, p) + shift * pixel * texelsPerMetre),
+                                           mostTexelsBeside);
+            const auto within = [&](const auto& value) { return blendedWithin(receiver, p, beside, value); };
+            const double low = within(least).least, high = within(most).most;
+            off.visibility = std::max(off.visibility, outside(V.at(x, y), low, high, rounding));
             const TexelBlend blend(receiver, p);
-            const double beside = 2.0 * (texelsBeside(receiver, p) + shift * pixel * texelsPerMetre);
-            const double low = blend.of(least), high = blend.of(most);
-            const double slack = rounding + beside * std::max(blend.range(least), blend.range(most));
-            off.visibility = std::max(off.visibility, outside(V.at(x, y), low, high, slack));
-            off.settled += low == high && low > 0.0 && low < 1.0;
-            const double full = blend.of(whole);
-            const double lowE = blend.of([&](const glm::ivec2&t) { return least(t) * whole(t); }),
-                         highE = blend.of([&](const glm::ivec2&t) { return most(t) * whole(t); });
-            const double range = blend.range([&](const glm::ivec2& t) { return most(t) * whole(t); }) +
-                                 blend.range([&](const glm::ivec2& t) { return least(t) * whole(t); }) +
-                                 blend.range(whole);
-            const double slackE = rounding * std::max(full, 1e-30) + beside * range;
+            const double darkest = blend.of(least);
+            off.settled += darkest == blend.of(most) && darkest > 0.0 && darkest < 1.0;
+            const double full = within(whole).most, slackE = rounding * std::max(full, 1e-30);
+            const double lowE = within([&](const glm::ivec2&t) { return least(t) * whole(t); }).least,
+                         highE = within([&](const glm::ivec2&t) { return most(t) * whole(t); }).most;
             off.irradiance = std::max(off.irradiance, outside(E.at(x, y, 0), lowE, highE, slackE));
             off.gained = std::max(off.gained, (E.at(x, y, 0) - full) / slackE);
         }
