@@ -31,6 +31,8 @@ class ProjectedTriangle {
     double depth(const glm::dvec2& at) const { return glm::dot(depth_, glm::dvec3(at, 1.0)) / volume_; }
     double distance(const glm::dvec2& at) const;
     glm::dvec2 slope() const { return glm::dvec2(depth_) / volume_; }
+    /// Texels by which an edge may be drawn beside its place.
+    double margin() const { return margin_; }
     /// Smallest and largest r of a corner; infinite where one is cut off.
     double least() const { return least_; }
     double most() const { return most_; }

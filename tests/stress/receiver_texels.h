@@ -22,10 +22,21 @@ struct TexelBlend {
     std::array<double, 4> weights;
 
     TexelBlend(const Receiver& receiver, const glm::dvec3& p);
+    /// `at`: in texels, with texel i's centre at i.
+    TexelBlend(const Receiver& receiver, const glm::dvec2& at);
     double of(const std::function<double(const glm::ivec2&)>& value) const;
     /// Largest difference of values: what the blend changes by for a texel's step.
     double range(const std::function<double(const glm::ivec2&)>& value) const;
 };
+
+struct Blended {
+    double least = 0.0, most = 0.0;
+};
+
+/// What a blend of the texels may be anywhere within `beside` texels of `p` along each axis. Not the slope of
+/// p's own cell: where a shadow begins in the next one, that is 0, and floats may have p beyond the border.
+Blended blendedWithin(const Receiver& receiver, const glm::dvec3& p, double beside,
+                      const std::function<double(const glm::ivec2&)>& value);
 
 /// What arrives at a texel's centre from an area light of emission 1, nothing in between: Lambert's formula.
 double unoccluded(const Receiver& receiver, const Light& light, const glm::ivec2& texel);

@@ -22,6 +22,7 @@ namespace {
 
 constexpr int mostPixels = 24;
 constexpr double lightDistance = 3.0;
+constexpr double mostTexelsBeside = 4.0;
 
 /// shadowedSurface under a square light in the place of its light.
 LoneSurface underAreaLight(const Case& given) {
@@ -47,7 +48,8 @@ struct Seen {
 /// fraction of the way from the light.
 struct ProjectedLight {
     LightPoint point;
-    double height, near, far, tolerance;
+    double height;
+    double near, far;  ///< q: only what lies between is surely not cut off
     bool tooLow;
     std::vector<ProjectedTriangle> triangles;
 };
@@ -70,11 +72,17 @@ class LightOnReceiver {
             const glm::dvec4 rounding = 2.0 * transformOperations * 0x1p-24 * sizes;
             const DrawnOff off{
                 snap, {std::max(rounding.x, rounding.y) + rounding.w, 0.0, rounding.w}, projection->near};
+            // The planes that cut: z + w = 2 far (t - near) / (far - near) and w - z = 2 near (far - t) /
+            // (far - near). z's row is t's, stretched, and a constant: both together are off by 2 far (offT +
+            // offOne near) / (far - near). So far aside near is sharp, but far is not: dividing by a small
+            // near multiplies what t is off by.
+            const double offOne = transformOperations * 0x1p-24, offT = offOne * sizes.w;
+            const double nearOff = offT + offOne,
+                         farOff = (offT / projection->near + offOne) * projection->far;
             ProjectedLight light{point,
                                  receiver.height(point.position),
-                                 projection->near,
-                                 projection->far,
-                                 rounding.w + 0x1p-22,
+                                 projection->near + nearOff,
+                                 std::max(projection->far - farOff, projection->near),
                                  projection->tooLow,
                                  {}};
             for (std::size_t t = 1; t < all.size(); ++t)
@@ -114,9 +122,13 @@ class LightOnReceiver {
             Cover cover = triangle.covers(at);
             if (cover == Cover::no) continue;
             // What lies nearer to the receiver than float arithmetic can tell from it is cut off, and so is
-            // what lies nearer to the light than a thousandth of the way.
-            const double t = triangle.distance(at);
-            if (light.tooLow || t > light.far - light.tolerance || t < light.near + light.tolerance)
+            // what lies nearer to the light than a thousandth of the way. The corners of the cut are moved
+            // like all others; 1/q is linear in the texture.
+            const double inverse = 1.0 / triangle.distance(at), m = triangle.margin();
+            double change = 0.0;
+            for (const glm::dvec2& moved : {glm::dvec2(m, m), glm::dvec2(m, -m)})
+                change = std::max(change, std::abs(1.0 / triangle.distance(at + moved) - inverse));
+            if (light.tooLow || inverse - change < 1.0 / light.far || inverse + change > 1.0 / light.near)
                 cover = Cover::maybe;
             if (cover == Cover::yes) return cover;
             most = Cover::maybe;
@@ -162,19 +174,18 @@ Off compare(const LoneSurface& surface, const Receiver& receiver, const std::vec
     for (int y = 0; y < V.height; ++y) {
         for (int x = 0; x < V.width; ++x) {
             const glm::dvec3 p = surface.point(x, y, V.width);
+            // More than a texel only so far aside that nothing is promised.
+            const double beside = std::min(2.0 * (texelsBeside(receiver, p) + shift * pixel * texelsPerMetre),
+                                           mostTexelsBeside);
+            const auto within = [&](const auto& value) { return blendedWithin(receiver, p, beside, value); };
+            const double low = within(least).least, high = within(most).most;
+            off.visibility = std::max(off.visibility, outside(V.at(x, y), low, high, rounding));
             const TexelBlend blend(receiver, p);
-            const double beside = 2.0 * (texelsBeside(receiver, p) + shift * pixel * texelsPerMetre);
-            const double low = blend.of(least), high = blend.of(most);
-            const double slack = rounding + beside * std::max(blend.range(least), blend.range(most));
-            off.visibility = std::max(off.visibility, outside(V.at(x, y), low, high, slack));
-            off.settled += low == high && low > 0.0 && low < 1.0;
-            const double full = blend.of(whole);
-            const double lowE = blend.of([&](const glm::ivec2&t) { return least(t) * whole(t); }),
-                         highE = blend.of([&](const glm::ivec2&t) { return most(t) * whole(t); });
-            const double range = blend.range([&](const glm::ivec2& t) { return most(t) * whole(t); }) +
-                                 blend.range([&](const glm::ivec2& t) { return least(t) * whole(t); }) +
-                                 blend.range(whole);
-            const double slackE = rounding * std::max(full, 1e-30) + beside * range;
+            const double darkest = blend.of(least);
+            off.settled += darkest == blend.of(most) && darkest > 0.0 && darkest < 1.0;
+            const double full = within(whole).most, slackE = rounding * std::max(full, 1e-30);
+            const double lowE = within([&](const glm::ivec2&t) { return least(t) * whole(t); }).least,
+                         highE = within([&](const glm::ivec2&t) { return most(t) * whole(t); }).most;
             off.irradiance = std::max(off.irradiance, outside(E.at(x, y, 0), lowE, highE, slackE));
             off.gained = std::max(off.gained, (E.at(x, y, 0) - full) / slackE);
         }

@@ -10,6 +10,22 @@
 
 namespace penumbra::stress {
 
+namespace {
+
+/// With texel i's centre at i.
+glm::dvec2 texelsAt(const Receiver& receiver, const glm::dvec3& p) {
+    return receiver.uv(p) * glm::dvec2(receiver.texels) - 0.5;
+}
+
+/// The ends of [at - beside, at + beside], and the borders of cells between.
+std::vector<double> cuts(double at, double beside) {
+    std::vector<double> found{at - beside, at + beside};
+    for (double border = std::ceil(at - beside); border < at + beside; ++border) found.push_back(border);
+    return found;
+}
+
+}  // namespace
+
 std::vector<Receiver> receiversOf(const Scene& scene, std::uint32_t triangle, double minimumArea,
                                   const glm::dvec3& normal) {
     AccumulationOptions options;
@@ -23,9 +39,11 @@ std::vector<Receiver> receiversOf(const Scene& scene, std::uint32_t triangle, do
     return receivers;
 }
 
-TexelBlend::TexelBlend(const Receiver& receiver, const glm::dvec3& p) {
-    const glm::dvec2 at = receiver.uv(p) * glm::dvec2(receiver.texels) - 0.5, cell = glm::floor(at),
-                     t = at - cell;
+TexelBlend::TexelBlend(const Receiver& receiver, const glm::dvec3& p)
+    : TexelBlend(receiver, texelsAt(receiver, p)) {}
+
+TexelBlend::TexelBlend(const Receiver& receiver, const glm::dvec2& at) {
+    const glm::dvec2 cell = glm::floor(at), t = at - cell;
     for (int i = 0; i < 4; ++i) {
         const glm::ivec2 corner(i % 2, i / 2);
         texels[std::size_t(i)] = glm::clamp(glm::ivec2(cell) + corner, glm::ivec2(0), receiver.texels - 1);
@@ -44,6 +62,20 @@ double TexelBlend::range(const std::function<double(const glm::ivec2&)>& value) 
     for (const glm::ivec2& texel : texels)
         least = std::min(least, value(texel)), most = std::max(most, value(texel));
     return most - least;
+}
+
+Blended blendedWithin(const Receiver& receiver, const glm::dvec3& p, double beside,
+                      const std::function<double(const glm::ivec2&)>& value) {
+    // Bilinear in each cell: extreme at a corner of what of the cell lies within.
+    const glm::dvec2 at = texelsAt(receiver, p);
+    const double first = TexelBlend(receiver, at).of(value);
+    Blended blended{first, first};
+    for (const double x : cuts(at.x, beside))
+        for (const double y : cuts(at.y, beside)) {
+            const double there = TexelBlend(receiver, glm::dvec2(x, y)).of(value);
+            blended.least = std::min(blended.least, there), blended.most = std::max(blended.most, there);
+        }
+    return blended;
 }
 
 double unoccluded(const Receiver& receiver, const Light& light, const glm::ivec2& texel) {
