@@ -152,6 +152,7 @@ int main(int argc, char** argv) {
          {"visibility", "how much of the light is seen, 0 to 1", true},
          {"irradiance", "light that arrives, by the shading normal", false, false, 0.31830988618379067},
          {"rays", "shadow rays per pixel", true, true}},
-        false};
+        false,
+        64};
     return runChapter<RayTracedTruth>(info, argc, argv);
 }

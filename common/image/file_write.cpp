@@ -45,6 +45,10 @@ void writeAll(int fd, std::string_view bytes, const fs::path& file) {
         if (written < 0) failWrite(file, std::strerror(errno));
         bytes.remove_prefix(std::size_t(written));
     }
+    // Networks and quotas may say only when a file is closed that it was not kept. It is a second descriptor
+    // that is closed here, as the lock is gone with the first.
+    const int second = ::dup(fd);
+    if (second < 0 || ::close(second) != 0) failWrite(file, std::strerror(errno));
 }
 
 void makeFolders(const fs::path& file) {

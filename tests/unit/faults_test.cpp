@@ -5,15 +5,29 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mount.h>
+#include <sys/syscall.h>
 
+#include <cerrno>
+#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "common/error.h"
 #include "common/image/file_write.h"
 #include "common/image/image_file.h"
 #include "tests/unit/killed_program.h"
 #include "tests/unit/triangle_scene.h"
+
+static int closeError = 0;  // what close says in this program, if not 0
+
+/// Takes the place of the C library's.
+extern "C" int close(int fd) {
+    const int result = int(::syscall(SYS_close, fd));
+    if (closeError == 0) return result;
+    errno = closeError;
+    return -1;
+}
 
 namespace penumbra {
 namespace {
@@ -55,7 +69,27 @@ class FaultsSlow : public testing::Test {
             count += entry.path().string().find(".part-") != std::string::npos;
         return count;
     }
+    /// Mounts made from now on are this process's alone, and gone with it. Who is not root may not have that.
+    static bool mayMount() {
+        return ::unshare(CLONE_NEWNS) == 0 &&
+               ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0;
+    }
     TemporaryFolder folder;
+};
+
+/// Puts `from` in the place of `to` while it lives, in this process and in those that it starts.
+class InPlaceOf {
+ public:
+    InPlaceOf(const fs::path& to, const fs::path& from) : to_(to) {
+        EXPECT_EQ(::mount(from.c_str(), to.c_str(), nullptr, MS_BIND, nullptr), 0)
+            << to << ": " << std::strerror(errno);
+    }
+    ~InPlaceOf() { ::umount(to_.c_str()); }
+    InPlaceOf(const InPlaceOf&) = delete;
+    InPlaceOf& operator=(const InPlaceOf&) = delete;
+
+ private:
+    fs::path to_;
 };
 
 TEST_F(FaultsSlow, KilledAtAnyMomentTheOldFileOrTheNewOneIsThere) {
@@ -133,13 +167,11 @@ TEST_F(FaultsSlow, AfterCtrlCABakeGoesOnWhereItWas) {
 }
 
 TEST_F(FaultsSlow, AFullOrReadOnlyDiskIsOneLineAndTheOldFilesStay) {
-    // Mounted for this process alone, and gone with it. Who is not root tests with /dev/full and ulimit -f
-    // only (cli_test).
     const std::string disk = (folder / "disk").string();
     fs::create_directory(disk);
-    if (::unshare(CLONE_NEWNS) != 0 || ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
-        ::mount("penumbra", disk.c_str(), "tmpfs", 0, "size=16k") != 0)
-        return;
+    if (!mayMount() || ::mount("penumbra", disk.c_str(), "tmpfs", 0, "size=16k") != 0)
+        GTEST_SKIP() << "no disk can be mounted here (" << std::strerror(errno)
+                     << "): run as root; cli_test has /dev/full and ulimit -f";
     writeFile(disk + "/a.png", "the old picture");
     writeFile(disk + "/fill", std::string(12 << 10, 'x'));
     const auto expectFailures = [&](const std::string& why) {
@@ -164,6 +196,36 @@ TEST_F(FaultsSlow, AFullOrReadOnlyDiskIsOneLineAndTheOldFilesStay) {
             {.program = programFolder() / "make_assets", .arguments = {"disk"}, .folder = folder.path()}),
         1, "disk/heckbert_herf.glb: cannot be written: Read-only file system");
     ::umount(disk.c_str());
+}
+
+TEST_F(FaultsSlow, AFileThatCannotBeReplacedIsOneLineAndStays) {
+    if (!mayMount())
+        GTEST_SKIP() << "nothing can be mounted here (" << std::strerror(errno) << "): run as root";
+    writeFile(folder / "a.png", "the old picture");
+    {
+        const InPlaceOf itself(folder / "a.png", folder / "a.png");  // as a container mounts one file
+        expectOneLine(runProgram(call("02_shadow_test", {"--size", "16x16", "--output", "a.png"})), 1,
+                      "a.png: cannot be written: Device or resource busy");
+    }
+    EXPECT_EQ(bytesOf(folder / "a.png"), "the old picture");
+    EXPECT_EQ(unfinishedFiles(folder.path()), 0u);
+}
+
+// As networks and quotas do.
+TEST(Faults, ADiskThatRefusesWhenTheFileIsClosedLeavesTheOldOne) {
+    const TemporaryFolder folder;
+    writeFile(folder / "a.png", "the old picture");
+    std::string said;
+    closeError = EDQUOT;
+    try {
+        writeFile(folder / "a.png", "the new picture");
+    } catch (const Error& error) {
+        said = error.what();
+    }
+    closeError = 0;
+    EXPECT_NE(said.find("a.png: cannot be written: Disk quota exceeded"), std::string::npos) << said;
+    EXPECT_EQ(bytesOf(folder / "a.png"), "the old picture");
+    EXPECT_EQ(folder.entries(), 1u);
 }
 
 TEST_F(FaultsSlow, NonsenseInTheEnvironmentIsIgnoredOrNamed) {
@@ -219,6 +281,30 @@ TEST_F(FaultsSlow, WithLittleMemoryItIsOneLineAndNeverACrash) {
     expectSilence(runProgram(enough));
 }
 
+TEST_F(FaultsSlow, APictureThatTheMachineHasNoMemoryForIsRefused) {
+    if (!mayMount())
+        GTEST_SKIP() << "nothing can be mounted here (" << std::strerror(errno) << "): run as root";
+    // Enough for what a container has left, too little for the picture with what the libraries take.
+    writeFile(folder / "meminfo", "MemTotal: 9000000 kB\nMemAvailable: 1024000 kB\nSwapFree: 1024 kB\n");
+    fs::create_directory(folder / "cgroup");
+    writeFile(folder / "cgroup/memory.max", "2097152000");
+    writeFile(folder / "cgroup/memory.current", "1048576000");
+    writeFile(folder / "cgroup/memory.stat", "anon 1\ninactive_file 524288000\n");
+    const auto expectRefused = [&](const std::string& free) {
+        expectOneLine(runProgram(call("02_shadow_test", {"--size", "8192x8192", "--output", "new/a.png"})), 1,
+                      "and " + free + " MB are free; use a smaller --size");
+        EXPECT_FALSE(fs::exists(folder / "new"));
+    };
+    {
+        const InPlaceOf machine("/proc/meminfo", folder / "meminfo");
+        expectRefused("1001");
+        expectSilence(runProgram(call("02_shadow_test", {"--size", "64x64", "--output", "a.png"})));
+    }
+    if (!fs::exists("/sys/fs/cgroup")) return;
+    const InPlaceOf container("/sys/fs/cgroup", folder / "cgroup");
+    expectRefused("1500");
+}
+
 TEST_F(FaultsSlow, WhatAPictureTakesIsNotMoreThanWasForeseen) {
     // Foreseen: of a picture that is refused, by how much more one of twice as many pixels would need.
     const auto foreseen = [&](const std::string& chapter, const std::string& size) {
@@ -229,28 +315,64 @@ TEST_F(FaultsSlow, WhatAPictureTakesIsNotMoreThanWasForeseen) {
         EXPECT_NE(at, std::string::npos) << said;
         return at == std::string::npos ? 0.0 : std::atof(said.c_str() + at + before.size());
     };
-    const auto taken = [&](const std::string& chapter, const std::string& size) {
-        ProgramCall of = call(chapter, {"--size", size, "--samples", "2", "--output", "a.exr"});
+    const auto taken = [&](const std::string& chapter, const std::string& size, const Words& cheap) {
+        ProgramCall of = call(chapter, {"--size", size, "--output", "a.exr"});
+        of.arguments.insert(of.arguments.end(), cheap.begin(), cheap.end());
         std::replace(of.arguments.begin(), of.arguments.end(), std::string("triangle.gltf"),
                      std::string("contact"));  // which has what chapter 08 draws: an area light
         const ProgramResult drawn = runProgram(of);
         expectSilence(drawn);
         return drawn.megabytes;
     };
-    for (const std::string chapter :
-         {"08_accumulation", "09_ambient_occlusion", "10_accumulated_occlusion", "11_bent_normals"}) {
+    const Words map{"--map-size", "256"}, two{"--samples", "2"}, disk{"--map-size", "256", "--samples", "8"};
+    const std::vector<std::pair<std::string, Words>> chapters{{"00_ray_traced_truth", two},
+                                                              {"01_depth_from_light", map},
+                                                              {"02_shadow_test", map},
+                                                              {"03_polygon_offset", map},
+                                                              {"04_pcf", map},
+                                                              {"05_jittered_disk", disk},
+                                                              {"06_jitter_texture", disk},
+                                                              {"07_branching", disk},
+                                                              {"08_accumulation", two},
+                                                              {"09_ambient_occlusion", two},
+                                                              {"10_accumulated_occlusion", two},
+                                                              {"11_bent_normals", two}};
+    for (const auto& [chapter, cheap] : chapters) {
         const double promised =
             (foreseen(chapter, "16384x16384") - foreseen(chapter, "8192x16384")) / (8192.0 * 16384.0);
-        const double measured = (taken(chapter, "768x768") - taken(chapter, "256x256")) / (512.0 * 1024.0);
+        const double measured = (taken(chapter, "768x768", cheap) - taken(chapter, "64x64", cheap)) /
+                                (768.0 * 768.0 - 64.0 * 64.0);
         EXPECT_LE(measured, promised) << chapter << ": in megabytes a pixel";
         EXPECT_LT(promised, 2.0 * measured) << chapter << ": pictures are refused that would fit";
     }
 }
 
-TEST_F(FaultsSlow, ThePictureOfEightThousandPixelsASideIsRendered) {
-    expectSilence(runProgram(
-        call("02_shadow_test", {"--size", "8192x8192", "--view", "visibility", "--report", "r.json"})));
+TEST_F(FaultsSlow, ThePictureOfEightThousandPixelsASideIsTheSmallOneInMorePixels) {
+    const auto visibility = [&](const std::string& size) {
+        expectSilence(runProgram(call("03_polygon_offset", {"--size", size, "--view", "visibility",
+                                                            "--report", "r.json", "--output", "a.png"})));
+        return readImage(folder / "a.png");
+    };
+    const FloatImage small = visibility("1024x1024"), large = visibility("8192x8192");
     EXPECT_EQ(Json::parse(bytesOf(folder / "r.json"))["size"], Json::parse("[8192, 8192]"));
+    ASSERT_EQ(large.width, 8192);
+    ASSERT_EQ(large.height, 8192);
+    int others = 0, lit = 0;
+    for (int y = 0; y < 1024; ++y)
+        for (int x = 0; x < 1024; ++x) {
+            lit += small.at(x, y) > 0.5f;
+            others += small.at(x, y) != large.at(8 * x + 4, 8 * y + 4);
+        }
+    EXPECT_GT(lit, 1024 * 1024 / 10) << "nothing to see";
+    EXPECT_LT(lit, 1024 * 1024 * 9 / 10) << "nothing to see";
+    EXPECT_LT(others, 1024 * 1024 / 100) << "along the edges alone";
+}
+
+TEST_F(FaultsSlow, ThePictureOfEightThousandPixelsASideIsRefusedUnderALimit) {
+    ProgramCall poor = call("02_shadow_test", {"--size", "8192x8192", "--output", "new/a.png"});
+    poor.addressSpace = 4000 * megabyte;
+    expectOneLine(runProgram(poor), 1, "the limit of ulimit -v, 4000 MB, leaves ");
+    EXPECT_FALSE(fs::exists(folder / "new"));
 }
 
 }  // namespace
