@@ -51,7 +51,8 @@ TEST(AccumulationExact, CullingChangesNothing) {
     Random random(1);
     std::int64_t tests = 0, culledTests = 0;
     for (int trial = 0; trial < 300; ++trial) {
-        const Receiver receiver = random.receiver({5 + random.below(60), 5 + random.below(60)});
+        const glm::ivec2 texels{5 + random.below(60), 5 + random.below(60)};
+        const Receiver receiver = random.receiver(texels);
         const Light light = random.lightNear(receiver);
         std::vector<Triangle> triangles;
         const int count = trial % 10 == 0 ? 60 : random.below(5);

@@ -296,7 +296,7 @@ TEST_F(Cli, AFileLargerThanAllowedIsAFailureThatLeavesTheOldPicture) {
     }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which takes 20 TB of address space, and handles crashes itself
+#ifndef PENUMBRA_SANITIZED  // which takes 20 TB of address space, and handles crashes itself
 TEST_F(Cli, UnderALimitOfMemoryACrashIsOneLineAndWithoutOneACrash) {
     ProgramCall crash = call({"--fault", "crash", "--size", "4x4", "--quiet"});
     EXPECT_EQ(runProgram(crash).status, -SIGSEGV) << "a debugger wants to see it";
