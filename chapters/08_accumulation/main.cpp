@@ -92,6 +92,8 @@ int main(int argc, char** argv) {
          {"textures", "the receivers' textures of light, side by side", false, false, 0.31830988618379067},
          {"hard-shadows", "of each light point on the largest receiver, side by side", true, false},
          {"work", "red: points disagree; grey: lit or dark without weights; blue: nothing could shadow it",
-          false, false, 0.0}}};
+          false, false, 0.0}},
+        true,
+        96};  // the number of each pixel's receiver too
     return runChapter<Accumulation>(info, argc, argv);
 }

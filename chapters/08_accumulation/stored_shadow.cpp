@@ -145,8 +145,8 @@ std::int64_t StoredShadow::mixedTexels(const Request& request) const {
     const glm::ivec2 texels = request.receiver.texels;
     std::int64_t count = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        const glm::vec2 centre(float(i % std::size_t(texels.x)) + 0.5f,
-                               float(i / std::size_t(texels.x)) + 0.5f);
+        const std::size_t row = i / std::size_t(texels.x), column = i % std::size_t(texels.x);
+        const glm::vec2 centre(float(column) + 0.5f, float(row) + 0.5f);
         count += sums[i].x > 0.0f && sums[i].x < sums[i].y &&
                  glm::dot(inFront, glm::vec3(centre / glm::vec2(texels), 1.0f)) > 0.0f;
     }

@@ -38,8 +38,9 @@ MUTATIONS = {
     # rays
     "AStartRoundedOffTheSurface": (
         ESTIMATE, "ambient_exactness", "*/LowWallNearby",
-        [("asked.push_back(ShadowRay::from(from,",
-          "Hit raised = from; raised.position += 1e-3 * from.geometricNormal;\nasked.push_back(ShadowRay::from(raised,")]),
+        [("std::vector<ShadowRay> asked;",
+          "Hit raised = from; raised.position += 1e-3 * from.geometricNormal;\nstd::vector<ShadowRay> asked;"),
+         ("asked.push_back(ShadowRay::from(from,", "asked.push_back(ShadowRay::from(raised,")]),
     "BakedUniformForCosine": (
         "chapters/09_ambient_occlusion/vertex_bake_rays.cpp", "ambient_bake_exactness", "*VerticesAlone*",
         [("byCosine = asked.weighting == Weighting::cosine", "byCosine = asked.count < 0")]),

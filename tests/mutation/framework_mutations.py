@@ -31,7 +31,7 @@ MUTATIONS = {
         GL + "program.cpp", "program", "*ReloadKeeps*",
         [("deleteProgram(std::exchange(id_, state_->build()));", "deleteProgram(std::exchange(id_, 0)), id_ = state_->build();")]),
     "PictureUpsideDown": (
-        GL + "render_target.cpp", "gpu_scene", "*ReadsTopRowFirst*", [("size.y - 1 - y", "y")]),
+        GL + "render_target.cpp", "gpu_scene", "*ReadsTopRowFirst*", [("size.y - 1 - low - row", "low + row")]),
     "OpenPartsAreCulled": (
         SCENE + "gpu_scene.cpp", "gpu_scene", "*CullingClosedParts*", [("return part.closed;", "return true;")]),
     "OneVertexForEveryNormalInTheDepthPass": (
