@@ -152,7 +152,6 @@ int main(int argc, char** argv) {
          {"visibility", "how much of the light is seen, 0 to 1", true},
          {"irradiance", "light that arrives, by the shading normal", false, false, 0.31830988618379067},
          {"rays", "shadow rays per pixel", true, true}},
-        false,
-        64};
+        false};
     return runChapter<RayTracedTruth>(info, argc, argv);
 }

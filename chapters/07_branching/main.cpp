@@ -106,6 +106,7 @@ class Branching : public Chapter {
 int main(int argc, char** argv) {
     std::vector<ViewInfo> views = shadowViews("the filtered S(x)", "filtered S(x): 0 dark to 1 lit");
     views.insert(views.begin() + 2, {"work", "the picture, red where all taps were taken"});
-    const ChapterInfo info{"07_branching", "probe first: only the penumbra is supersampled", views};
+    const ChapterInfo info{"07_branching", "probe first: only the penumbra is supersampled", views, true,
+                           80};  // the classification of each pixel too
     return runChapter<Branching>(info, argc, argv);
 }

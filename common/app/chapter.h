@@ -44,7 +44,7 @@ struct ChapterInfo {
     /// What drawing takes of memory for each pixel, most: frame buffer, depth, the picture as it is read
     /// back, as bytes and encoded, and what the chapter itself keeps for each pixel. Too little: a large
     /// picture ends with the process killed in place of a line that says why.
-    int bytesPerPixel = 80;
+    int bytesPerPixel = 64;
 };
 
 /// Everything one frame needs. Positions are relative to scene.origin.
