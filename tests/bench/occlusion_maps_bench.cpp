@@ -183,8 +183,10 @@ void pixels(const Scene& scene, int directions, int rounds) {
         const double sum = ways[0].best + ways[1].best;
         fmt::print("{} pixels {}x{}, {} directions, maps of {}:", scene.name, pictureSize.x, pictureSize.y,
                    directions, mapSize);
-        for (const Way& way : ways) fmt::print(" {} {:.0f} ms,", way.name, way.best);
-        fmt::print(" {:.2f} of the sum of its parts\n", ways[2].best / sum);
+        for (const Way& way : ways)
+            fmt::print(" {} {:.0f} ms of CPU ({:.0f} ms),", way.name, way.best, way.wall);
+        fmt::print(" {:.2f} of the sum of its parts ({:.2f})\n", ways[2].best / sum,
+                   ways[2].wall / (ways[0].wall + ways[1].wall));
     }
 }
 
