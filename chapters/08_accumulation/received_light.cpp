@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "chapters/08_accumulation/slow_frame.h"
 #include "chapters/08_accumulation/texture_room.h"
 #include "common/app/pass_timer.h"
@@ -53,10 +51,7 @@ std::string ReceivedLight::composedKey(const AccumulationOptions& options, Outpu
 
 std::vector<bool> ReceivedLight::unseen(const Frame& frame, const std::vector<int>& lights) {
     std::vector<bool> lit;
-    for (const Receiver& receiver : receivers_)
-        lit.push_back(std::any_of(lights.begin(), lights.end(), [&](int light) {
-            return receives(receiver, frame.scene.lights[std::size_t(light)]);
-        }));
+    for (const Receiver& receiver : receivers_) lit.push_back(receivesAny(receiver, frame.scene, lights));
     const std::vector<bool>& seen = seen_.find(frame, receivers_, lit);
     std::vector<bool> result;
     for (std::size_t i = 0; i < receivers_.size(); ++i) result.push_back(lit[i] && !seen[i]);

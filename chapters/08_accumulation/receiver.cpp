@@ -49,11 +49,6 @@ void setTexels(std::vector<Receiver>& receivers, const ReceiverRequest& request)
     }
 }
 
-bool receivesAny(const Receiver& receiver, const Scene& scene, const std::vector<int>& lights) {
-    return std::any_of(lights.begin(), lights.end(),
-                       [&](int light) { return receives(receiver, scene.lights[std::size_t(light)]); });
-}
-
 }  // namespace
 
 glm::dvec2 Receiver::uv(const glm::dvec3& p) const {
@@ -75,6 +70,11 @@ bool receives(const Receiver& receiver, const Light& light) {
         isInFront = isInFront || glm::dot(light.direction, corner - light.position) > above;
     }
     return lightIsAbove && isInFront;
+}
+
+bool receivesAny(const Receiver& receiver, const Scene& scene, const std::vector<int>& lights) {
+    return std::any_of(lights.begin(), lights.end(),
+                       [&](int light) { return receives(receiver, scene.lights[std::size_t(light)]); });
 }
 
 std::vector<Receiver> findReceivers(const Scene& scene, const ReceiverRequest& request) {

@@ -50,6 +50,8 @@ struct ReceiverRequest {
 /// Does light from some point of `light` arrive at some point of the receiver's parallelogram, nothing in
 /// between? False: the closed form is 0 everywhere, without a sample.
 bool receives(const Receiver& receiver, const Light& light);
+/// The same of any of these of the scene's lights, by their index.
+bool receivesAny(const Receiver& receiver, const Scene& scene, const std::vector<int>& lights);
 
 /// The receivers of `scene`, the largest first. A polygon is a set of triangles of one part that are
 /// connected by edges (vertices of equal position taken as one), lie in one plane, and have the plane's
