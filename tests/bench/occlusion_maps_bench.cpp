@@ -1,13 +1,13 @@
 // What N shadow maps cost and how wrong they are: occlusion_maps_bench [SCENE] [DIRECTIONS] [ROUNDS]. Two
 // tables:
-//   pixels: 512 x 512 of them, the whole against its bare parts, each alone: as many depth passes of the same
-//   mesh
-//     into one map, back faces culled, and as many look-ups at each pixel; and the depth passes in two other
-//     ways: a draw for each layer of an array, as chapter 10 does, and one instanced draw for each atlas of
-//     16;
+//   pixels: 512 x 512 of them, the whole against its bare parts, each alone: as many depth passes of the
+//     same mesh into one map, back faces culled, and as many look-ups at each pixel; and the depth passes in
+//     two other ways: a draw for each layer of an array, as chapter 10 does, and one instanced draw for each
+//     atlas of 16;
 //   vertices: by N directions of the whole sphere, of which N/2 are above each vertex, against 1024 rays.
-// Rounds are interleaved, times are of the CPU, of all threads together, and the smallest of all rounds; run
-// it with `taskset -c 1` on a machine that has other things to do.
+// Rounds are interleaved, times are of the CPU, of all threads together (in brackets: of the clock), and the
+// smallest of all rounds. `taskset -c 1` is for a machine that has other things to do; on one core the whole
+// is nearer to its parts than on two.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "chapters/01_depth_from_light/shadow_map.h"
 #include "chapters/09_ambient_occlusion/vertex_bake.h"
 #include "chapters/10_accumulated_occlusion/accumulated_occlusion.h"
 #include "chapters/10_accumulated_occlusion/receivers.h"
@@ -65,16 +66,8 @@ class Parts {
           maps_(mapSize, DepthFormat::float32, SkyMaps::layersFor(mapSize, VisibilitySums::batch)),
           lookUp_("common/fullscreen.vert", "tests/bare_look_up.frag",
                   {"BATCH " + std::to_string(maps_.layers())}),
+          atlas_(atlasSide * mapSize, DepthFormat::float32),
           sums_(pictureSize) {
-        glBindTexture(GL_TEXTURE_2D, atlas_.id());
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, atlasSide * mapSize, atlasSide * mapSize, 0,
-                     GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-        glBindFramebuffer(GL_FRAMEBUFFER, atlasFramebuffer_.id());
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, atlas_.id(), 0);
-        const GLenum none = GL_NONE;
-        glDrawBuffers(1, &none);
-        glReadBuffer(GL_NONE);
-        requireCompleteFramebuffer("an atlas of shadow maps");
         const BoundingSphere sphere = boundingSphere(scene);
         for (const glm::dvec3& l : all_) frusta_.push_back(skyFrustum(sphere, l));
         receivers_.drawPixels(frame);
@@ -96,8 +89,8 @@ class Parts {
     /// has to be clipped.
     void atlases(const Frame& frame) {
         const VisibleClusters all = allClusters(frame.scene);
-        glBindFramebuffer(GL_FRAMEBUFFER, atlasFramebuffer_.id());
-        glViewport(0, 0, atlasSide * mapSize_, atlasSide * mapSize_);
+        glBindFramebuffer(GL_FRAMEBUFFER, atlas_.framebuffer());
+        glViewport(0, 0, atlas_.size(), atlas_.size());
         glEnable(GL_DEPTH_TEST);
         glDepthMask(GL_TRUE);
         glDepthFunc(GL_LESS);
@@ -156,8 +149,7 @@ class Parts {
     SkyMaps one_, maps_;
     Program depth_{"01_depth_from_light/depth.vert", "01_depth_from_light/depth.frag"}, lookUp_;
     Program atlasDepth_{"tests/depth_atlas.vert", "01_depth_from_light/depth.frag", {"TILES 16"}};
-    GlTexture atlas_;
-    GlFramebuffer atlasFramebuffer_;
+    ShadowMap atlas_;
     Receivers receivers_;
     TexturePair sums_;
     FullscreenTriangle triangle_;
