@@ -13,7 +13,8 @@ int SkyMaps::layersFor(int mapSize, int most) {
 }
 
 BoundingSphere boundingSphere(const Scene& scene) {
-    BoundingSphere sphere{scene.bounds.centre(), 1e-6};
+    // A centre that floats can hold: what shaders subtract is the sphere's own.
+    BoundingSphere sphere{glm::vec3(scene.bounds.centre()), 1e-6};
     for (const glm::vec3& p : scene.positions)
         sphere.radius = std::max(sphere.radius, glm::distance(sphere.centre, glm::dvec3(p)));
     return sphere;

@@ -36,41 +36,35 @@ std::vector<glm::vec4> TexturePair::readFirst() const {
 
 namespace {
 
-/// Row `row` of a matrix: what makes one coordinate of (x, y, z, 1).
-glm::vec4 rowOf(const glm::dmat4& m, int row) {
-    return {glm::dvec4(m[0][row], m[1][row], m[2][row], m[3][row])};
+/// Row `row` of a rotation: an axis of the view, in the world.
+glm::vec4 axis(const glm::dmat4& rotation, int row) {
+    return {glm::vec3(rotation[0][row], rotation[1][row], rotation[2][row]), 0.0f};
 }
 
 void setMaps(Program& program, const SkyMaps& maps, const SkyBatch& batch) {
-    std::vector<glm::vec4> across, up, toSky, radiance;
-    for (std::size_t i = 0; i < batch.directions.size(); ++i) {
-        const LightFrustum& frustum = batch.frusta[i];
-        const glm::dvec3& l = batch.directions[i];
-        const glm::dmat4 textureFromWorld = frustum.textureFromWorld();
-        across.push_back(rowOf(textureFromWorld, 0) * float(maps.mapSize()));
-        up.push_back(rowOf(textureFromWorld, 1) * float(maps.mapSize()));
-        toSky.emplace_back(glm::vec3(l), float(glm::dot(l, frustum.eye) - frustum.near));
+    std::vector<glm::vec4> right, up, radiance;
+    for (std::size_t i = 0; i < batch.frusta.size(); ++i) {
+        right.push_back(axis(batch.frusta[i].lightViewFromWorld, 0));
+        up.push_back(axis(batch.frusta[i].lightViewFromWorld, 1));
         radiance.emplace_back(glm::vec3(batch.radiances[i]), 0.0f);
     }
-    program.set("uAcross", across);
+    const LightFrustum& any = batch.frusta.front();  // all are around the same sphere
+    program.set("uCentre", glm::vec3(any.eye));
+    program.set("uPerRadius", float(1.0 / any.far));
+    program.set("uRight", right);
     program.set("uUp", up);
-    program.set("uToSky", toSky);
     program.set("uRadiance", radiance);
-    program.set("uCount", int(batch.directions.size()));
+    program.set("uCount", int(batch.frusta.size()));
     program.setTexture("uMaps", GL_TEXTURE_2D_ARRAY, maps.texture());
 }
 
 void setBias(Program& program, const SkyMaps& maps, const SkyBatch& batch) {
-    const LightFrustum& frustum = batch.frusta.front();  // all are equally large
-    const SkyBias& bias = batch.bound;
-    const double texelsPerMetre = maps.mapSize() / (2.0 * frustum.halfExtent.x);
-    program.set("uDepthPerMetre", float(1.0 / (frustum.far - frustum.near)));
-    program.set("uBiasPerSlope", batch.bias * bias.perSlope / float(texelsPerMetre));
-    program.set("uBias", batch.bias * bias.constant);
+    program.set("uMapSize", float(maps.mapSize()));
+    program.set("uBiasPerSlope", batch.bias * batch.bound.perSlope);
+    program.set("uBias", batch.bias * batch.bound.constant);
     if (batch.cellTangent <= 0.0) return;
     // A circle halves a disk at 1 / sqrt(2) of its radius.
     program.set("uCell", float(maps.mapSize() * batch.cellTangent * std::numbers::sqrt2 / 2.0));
-    program.set("uTiltPerSlope", float(1.0 / (maps.mapSize() * texelsPerMetre)));
 }
 
 }  // namespace

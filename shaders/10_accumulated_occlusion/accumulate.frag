@@ -8,12 +8,13 @@ uniform sampler2DArray uMaps;
 
 uniform int uCount;             // maps in this batch
 uniform vec4 uCone;             // a receiver with dot(n, xyz) <= w has none of them above its horizon
-uniform vec4 uAcross[BATCH];    // texels across map k = dot(uAcross[k], (p, 1))
-uniform vec4 uUp[BATCH];
-uniform vec4 uToSky[BATCH];     // xyz: the direction, unit; w: depth 0 lies at l.p = w
-uniform vec4 uRadiance[BATCH];  // of the sky there
-uniform float uDepthPerMetre;
-uniform float uBiasPerSlope;    // slopes in texels a metre: of uAcross, uUp
+uniform vec3 uCentre;           // of the sphere that every map shows, from edge to edge and from depth 0 to depth 1
+uniform float uPerRadius;
+uniform vec4 uRight[BATCH];     // xyz: along the rows of map k, unit
+uniform vec4 uUp[BATCH];        // xyz: along its columns
+uniform vec4 uRadiance[BATCH];  // of the sky where map k looks from
+uniform float uMapSize;
+uniform float uBiasPerSlope;
 uniform float uBias;
 
 layout(location = 0) out vec4 outSeen;
@@ -31,24 +32,28 @@ void main() {
     vec3 n = texelFetch(uNormals, texel, 0).xyz, facet = texelFetch(uFacets, texel, 0).xyz;
     vec4 seen = texelFetch(uSeen, texel, 0), received = texelFetch(uReceived, texel, 0);
     // [begin:accumulate]
+    vec3 q = (p.xyz - uCentre) * uPerRadius;  // -1 to 1 along every axis that a map can have
+    float mapSize = uMapSize, perSlope = uBiasPerSlope, bias = uBias;  // what is read here is not read again N times
     // A skip as the bound of a loop: it ends where no pixel of the processor's group needs it. An `if` would run on.
     int count = dot(n, uCone.xyz) > uCone.w ? uCount : 0;
     for (int k = 0; k < count; ++k) {
-        vec3 l = uToSky[k].xyz;
+        // Two axes of the map say all of it: the third one, their product, points to the sky.
+        vec3 right = uRight[k].xyz, up = uUp[k].xyz, l = cross(right, up);
         float weight = dot(n, l), facing = dot(facet, l);
         if (weight <= horizonCosine) weight = 0.0;
         received.w += weight;
 
+        vec2 at = (0.5 + 0.5 * vec2(dot(right, q), dot(up, q))) * mapSize;
+        float z = 0.5 - 0.5 * dot(l, q);
         // Chapter 03's bound, S + Q + C. A map of the sky has no perspective, so the slope of a plane follows from its normal:
         // |dz/ds| + |dz/dt| = slope / facing. Everything is multiplied by `facing`, and there is nothing to divide by.
-        float slope = abs(dot(facet, uAcross[k].xyz)) + abs(dot(facet, uUp[k].xyz));
-        float z = (uToSky[k].w - dot(l, p.xyz)) * uDepthPerMetre;
+        vec2 slopes = vec2(dot(facet, right), dot(facet, up));
+        float margin = perSlope * (abs(slopes.x) + abs(slopes.y));
 #ifdef SOFT_EDGES
-        vec2 at = vec2(dot(uAcross[k], p), dot(uUp[k], p)), slopes = vec2(dot(facet, uAcross[k].xyz), dot(facet, uUp[k].xyz));
-        weight *= facing > 0.0 ? openShare(k, at, z, facing, slopes, uBiasPerSlope * slope) : 0.0;
+        weight *= facing > 0.0 ? openShare(k, at, z, facing, slopes / mapSize, margin) : 0.0;
 #else
-        float zMap = texelFetch(uMaps, ivec3(dot(uAcross[k], p), dot(uUp[k], p), k), 0).r;
-        bool lit = facing > 0.0 && (z - zMap - uBias) * facing <= uBiasPerSlope * slope;
+        float zMap = texelFetch(uMaps, ivec3(at, k), 0).r;
+        bool lit = facing > 0.0 && (z - zMap - bias) * facing <= margin;
         if (!lit) weight = 0.0;
 #endif
         seen += weight * vec4(l, 1.0);

@@ -1,6 +1,5 @@
 // How much of the sky around a direction is open, from the one map of that direction.
 uniform float uCell;          // texels for each unit of depth: radius of the circle that halves what a direction stands for
-uniform float uTiltPerSlope;  // the surface's slopes are in texels a metre; the product: depth a texel
 
 // [begin:soft-edges]
 // A direction stands for a cap of the sky. An occluder at the height h above the receiver (a difference of depths) hides a part of the
@@ -25,9 +24,10 @@ float blockedAround(int k, vec2 at, vec2 offset, float z, float facing, vec2 til
                    blockedAt(k, at, -across, z, facing, tilt, margin, occluders));
 }
 
-// The open share of the cap: of the rings within the disk of the mean occluder, each by its area.
-float openShare(int k, vec2 at, float z, float facing, vec2 slopes, float margin) {
-    vec2 tilt = uTiltPerSlope * slopes, occluders = vec2(0.0);
+// The open share of the cap: of the rings within the disk of the mean occluder, each by its area. `tilt`: of the surface, depth a texel
+// (times `facing`).
+float openShare(int k, vec2 at, float z, float facing, vec2 tilt, float margin) {
+    vec2 occluders = vec2(0.0);
     vec2 inner = uCell * ringHeights.x * vec2(0.9792, 0.2028), outer = uCell * ringHeights.y * vec2(0.5491, 0.8358);
     vec3 blocked = vec3(blockedAt(k, at, vec2(0.0), z, facing, tilt, margin, occluders),
                         blockedAround(k, at, inner, z, facing, tilt, margin, occluders),

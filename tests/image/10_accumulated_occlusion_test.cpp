@@ -420,14 +420,14 @@ TEST_P(Chapter10Mutation, IsNoticed) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Shader, Chapter10Mutation,
-    testing::Values(
-        Mutation{"unweighted", "if (weight <= horizonCosine) weight = 0.0;",
-                 "weight = weight <= horizonCosine ? 0.0 : 1.0;"},
-        Mutation{"horizonForgotten", "if (weight <= horizonCosine) weight = 0.0;", "weight = abs(weight);"},
-        Mutation{"noBias", "<= uBiasPerSlope * slope;", "<= -uBias * facing;"},
-        Mutation{"halfATexelOff", "ivec3(dot(uAcross[k], p),", "ivec3(dot(uAcross[k], p) + 0.5,"},
-        Mutation{"compareFlipped", "<= uBiasPerSlope * slope;", "> uBiasPerSlope * slope;"},
-        Mutation{"upsideDown", "dot(uUp[k], p), k)", "float(textureSize(uMaps, 0).y) - dot(uUp[k], p), k)"}),
+    testing::Values(Mutation{"unweighted", "if (weight <= horizonCosine) weight = 0.0;",
+                             "weight = weight <= horizonCosine ? 0.0 : 1.0;"},
+                    Mutation{"horizonForgotten", "if (weight <= horizonCosine) weight = 0.0;",
+                             "weight = abs(weight);"},
+                    Mutation{"noBias", "<= margin;", "<= -bias * facing;"},
+                    Mutation{"halfATexelOff", "ivec3(at, k)", "ivec3(at + vec2(0.5, 0.0), k)"},
+                    Mutation{"compareFlipped", "<= margin;", "> margin;"},
+                    Mutation{"upsideDown", "dot(up, q)", "-dot(up, q)"}),
     [](const auto& mutation) { return mutation.param.name; });
 
 class Chapter10SoftMutation : public testing::TestWithParam<Mutation> {};
