@@ -11,7 +11,7 @@ from bench_tree import PROGRAM, BenchTest, point, result
 from temporary_tree import ROOT, TreeTest
 
 import png
-from bench import browse, curves, document, error, estimates, files, raster, results, runner, sections
+from bench import browse, curves, document, error, estimates, files, raster, results, runner, sections, skips
 from bench import store, svg, techniques, work
 from bench import measuring as measuring_module
 from bench.figures import Curve, Figure, Line, Mark, layOut
@@ -253,6 +253,12 @@ class FigureTest(TreeTest):
 class CommittedPageTest(unittest.TestCase):
     def testThePageIsWhatItsResultsMake(self):
         self.assertEqual(document.stale(ROOT), "")
+
+    def testEverySkipIsSwitchedOffSomewhere(self):
+        sources = "".join(header.read_text() for part in ("chapters", "common") for header in (ROOT / part).rglob("*.h"))
+        declared = set(re.findall(r"inline constexpr Skip \w+\{\s*\"([\w-]+)\"", sources))
+        self.assertIn("kept-maps", declared)
+        self.assertEqual(declared - {off.name for case in skips.CASES for off in case.off}, set())
 
     def testPointsHaveNamesOfTheirOwn(self):
         for quick in (True, False):

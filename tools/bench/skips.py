@@ -97,6 +97,8 @@ CASES = (
          ("--samples", "128", "--view", "ambient", "--camera", "1"), (skip("maps-below-horizon"),), runs=2),
     Case("many maps, nothing moves", "10_accumulated_occlusion", "gully",
          ("--samples", "128", "--view", "ambient", "--still"), (skip("kept-occlusion"),), runs=2),
+    Case("a lamp alone", "11_bent_normals", "courtyard",
+         ("--samples", "16", "--view", "color", "--combine", "none", "--size", "256x256"), (skip("sky-not-shown"),), runs=2),
 )
 
 
