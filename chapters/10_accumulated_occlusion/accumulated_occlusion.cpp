@@ -12,7 +12,6 @@ namespace penumbra {
 
 namespace {
 
-constexpr std::size_t leaf = 8;        ///< directions that belong together, whatever the size of a batch
 constexpr int mostDirections = 16384;  ///< of --rotate: more would change no colour of a screen
 
 /// All that the sums depend on. Scenes are immutable once loaded, so the pointer stands for the surfaces.
@@ -91,7 +90,7 @@ void AccumulatedOcclusion::State::begin(const Frame& frame, const OcclusionOptio
 // [begin:batches]
 void AccumulatedOcclusion::State::addDirections(const Frame& frame, const OcclusionOptions& options,
                                                 const Sky& sky, std::vector<glm::dvec3> directions) {
-    directions = compactOrder(std::move(directions), leaf);
+    directions = compactOrder(std::move(directions), VisibilitySums::leaf);
     const std::size_t all = directions.size();
     std::vector<LightFrustum> everyone;
     for (const glm::dvec3& l : directions) everyone.push_back(skyFrustum(sphere, l));

@@ -1,5 +1,6 @@
 #include "chapters/10_accumulated_occlusion/visibility_sums.h"
 
+#include <algorithm>
 #include <numbers>
 #include <utility>
 
@@ -58,6 +59,17 @@ void setMaps(Program& program, const SkyMaps& maps, const SkyBatch& batch) {
     program.setTexture("uMaps", GL_TEXTURE_2D_ARRAY, maps.texture());
 }
 
+void setCones(Program& program, const SkyBatch& batch) {
+    std::vector<glm::vec4> cones;
+    for (std::size_t first = 0; first < batch.directions.size(); first += VisibilitySums::leaf) {
+        const std::size_t count = std::min(VisibilitySums::leaf, batch.directions.size() - first);
+        const DirectionCone cone =
+            batch.skip ? coneAround(batch.directions.subspan(first, count)) : DirectionCone{};
+        cones.emplace_back(glm::vec3(cone.axis), float(cone.below));
+    }
+    program.set("uCones", cones);
+}
+
 void setBias(Program& program, const SkyMaps& maps, const SkyBatch& batch) {
     program.set("uMapSize", float(maps.mapSize()));
     program.set("uBiasPerSlope", batch.bias * batch.bound.perSlope);
@@ -81,15 +93,15 @@ void VisibilitySums::clear(const glm::ivec2& size) {
 
 void VisibilitySums::add(const Receivers& receivers, const SkyMaps& maps, const SkyBatch& added) {
     std::vector<std::string> defines;
-    defines.reserve(3);
+    defines.reserve(4);
     defines.emplace_back("BATCH " + std::to_string(batch));
+    defines.emplace_back("LEAF " + std::to_string(leaf));
     if (added.countWork) defines.emplace_back("COUNT_WORK");
     if (added.cellTangent > 0.0) defines.emplace_back("SOFT_EDGES");
     Program& program = add_.with(defines);
     setMaps(program, maps, added);
     setBias(program, maps, added);
-    const DirectionCone cone = added.skip ? coneAround(added.directions) : DirectionCone{};
-    program.set("uCone", glm::vec4(cone.axis, cone.below));
+    setCones(program, added);
     program.setTexture("uPositions", GL_TEXTURE_2D, receivers.positions());
     program.setTexture("uNormals", GL_TEXTURE_2D, receivers.normals());
     program.setTexture("uFacets", GL_TEXTURE_2D, receivers.facets());

@@ -34,7 +34,7 @@ class TexturePair {
 };
 
 inline constexpr Skip lookUpsFacingAway{"look-ups-facing-away", "",
-                                        "a receiver that faces away from all directions of a batch of maps "
+                                        "a receiver that faces away from eight neighbouring directions "
                                         "looks none of them up: each counts 0"};
 
 /// A batch of maps: layer i holds what `directions`[i] sees, and the sky there has `radiances`[i].
@@ -51,10 +51,12 @@ struct SkyBatch {
 
 class VisibilitySums {
  public:
-    /// Maps of one pass. OpenGL ES 3.0 promises 224 vectors of uniforms, and a map takes three; but the cone
-    /// around twice as many directions is wider and spares fewer receivers, which costs what a pass less
-    /// saves.
+    /// Maps of one pass. OpenGL ES 3.0 promises 224 vectors of uniforms, and a map takes three: twice as many
+    /// would fit, but take twice the memory and save next to no time.
     static constexpr int batch = 32;
+    /// Neighbours among the directions of a batch that a receiver leaves out together. Fewer, and asking
+    /// costs more than it saves; more, and their cone is too wide to be below many horizons.
+    static constexpr std::size_t leaf = 8;
 
     VisibilitySums();
     /// Everything 0, for receivers of that size.

@@ -7,7 +7,7 @@ uniform sampler2D uReceived;    // V (n.l) L, and (n.l)
 uniform sampler2DArray uMaps;
 
 uniform int uCount;             // maps in this batch
-uniform vec4 uCone;             // a receiver with dot(n, xyz) <= w has none of them above its horizon
+uniform vec4 uCones[BATCH / LEAF];  // a receiver with dot(n, xyz) <= w has none of LEAF neighbours above its horizon
 uniform vec3 uCentre;           // of the sphere that every map shows, from edge to edge and from depth 0 to depth 1
 uniform float uPerRadius;
 uniform vec4 uRight[BATCH];     // xyz: along the rows of map k, unit
@@ -34,34 +34,37 @@ void main() {
     // [begin:accumulate]
     vec3 q = (p.xyz - uCentre) * uPerRadius;  // -1 to 1 along every axis that a map can have
     float mapSize = uMapSize, perSlope = uBiasPerSlope, bias = uBias;  // what is read here is not read again N times
-    // A skip as the bound of a loop: it ends where no pixel of the processor's group needs it. An `if` would run on.
-    int count = dot(n, uCone.xyz) > uCone.w ? uCount : 0;
-    for (int k = 0; k < count; ++k) {
-        // Two axes of the map say all of it: the third one, their product, points to the sky.
-        vec3 right = uRight[k].xyz, up = uUp[k].xyz, l = cross(right, up);
-        float weight = dot(n, l), facing = dot(facet, l);
-        if (weight <= horizonCosine) weight = 0.0;
-        received.w += weight;
+    for (int first = 0; first < uCount; first += LEAF) {
+        // A skip as the bound of a loop: it ends where no pixel of the processor's group needs it. An `if` would run on.
+        vec4 cone = uCones[first / LEAF];
+        int end = dot(n, cone.xyz) > cone.w ? min(first + LEAF, uCount) : first;
+        for (int k = first; k < end; ++k) {
+            // Two axes of the map say all of it: the third one, their product, points to the sky.
+            vec3 right = uRight[k].xyz, up = uUp[k].xyz, l = cross(right, up);
+            float weight = dot(n, l), facing = dot(facet, l);
+            if (weight <= horizonCosine) weight = 0.0;
+            received.w += weight;
 
-        vec2 at = (0.5 + 0.5 * vec2(dot(right, q), dot(up, q))) * mapSize;
-        float z = 0.5 - 0.5 * dot(l, q);
-        // Chapter 03's bound, S + Q + C. A map of the sky has no perspective, so the slope of a plane follows from its normal:
-        // |dz/ds| + |dz/dt| = slope / facing. Everything is multiplied by `facing`, and there is nothing to divide by.
-        vec2 slopes = vec2(dot(facet, right), dot(facet, up));
-        float margin = perSlope * (abs(slopes.x) + abs(slopes.y));
+            vec2 at = (0.5 + 0.5 * vec2(dot(right, q), dot(up, q))) * mapSize;
+            float z = 0.5 - 0.5 * dot(l, q);
+            // Chapter 03's bound, S + Q + C. A map of the sky has no perspective, so the slope of a plane follows from its normal:
+            // |dz/ds| + |dz/dt| = slope / facing. Everything is multiplied by `facing`, and there is nothing to divide by.
+            vec2 slopes = vec2(dot(facet, right), dot(facet, up));
+            float margin = perSlope * (abs(slopes.x) + abs(slopes.y));
 #ifdef SOFT_EDGES
-        weight *= facing > 0.0 ? openShare(k, at, z, facing, slopes / mapSize, margin) : 0.0;
+            weight *= facing > 0.0 ? openShare(k, at, z, facing, slopes / mapSize, margin) : 0.0;
 #else
-        float zMap = texelFetch(uMaps, ivec3(at, k), 0).r;
-        bool lit = facing > 0.0 && (z - zMap - bias) * facing <= margin;
-        if (!lit) weight = 0.0;
+            float zMap = texelFetch(uMaps, ivec3(at, k), 0).r;
+            bool lit = facing > 0.0 && (z - zMap - bias) * facing <= margin;
+            if (!lit) weight = 0.0;
 #endif
-        seen += weight * vec4(l, 1.0);
+            seen += weight * vec4(l, 1.0);
 #ifdef COUNT_WORK
-        received.rgb += vec3(1.0);
+            received.rgb += vec3(1.0);
 #else
-        received.rgb += weight * uRadiance[k].rgb;
+            received.rgb += weight * uRadiance[k].rgb;
 #endif
+        }
     }
     // [end:accumulate]
     outSeen = seen;
