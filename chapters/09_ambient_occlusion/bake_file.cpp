@@ -18,6 +18,11 @@ void saveAmbient(const Scene& scene, std::span<const AmbientValue> values,
     writeFile(file, glbOf(scene, ambient));
 }
 
+void requireSavable(const std::filesystem::path& file) {
+    if (file.extension() != ".glb") throw UsageError("--save " + file.string() + ": must end in .glb");
+    requireWritable(file);
+}
+
 std::optional<std::vector<AmbientValue>> loadedAmbient(const Scene& scene) {
     if (scene.ambient.empty()) return std::nullopt;
     std::vector<AmbientValue> values;

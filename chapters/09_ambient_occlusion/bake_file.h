@@ -16,6 +16,10 @@ namespace penumbra {
 /// not written. Throws Error if the file cannot be written.
 void saveAmbient(const Scene& scene, std::span<const AmbientValue> values, const std::filesystem::path& file);
 
+/// Before a bake that takes minutes: throws what saving to `file` would, as far as can be known by then, and
+/// UsageError where the name does not end in .glb, by which --scene knows it again. Leaves nothing behind.
+void requireSavable(const std::filesystem::path& file);
+
 /// The values of a scene that was loaded from such a file: one per vertex, or nothing if it has none.
 std::optional<std::vector<AmbientValue>> loadedAmbient(const Scene& scene);
 

@@ -80,6 +80,7 @@ void BakedAmbient::bake(const Frame& frame, const AmbientOptions& options) {
         values_ = *loaded;
         return;
     }
+    if (options.save != "none") requireSavable(options.save);
     if (!bundle_) bundle_.emplace(scene_);
     if (options.method == "bits") {
         bakeBitsOf(frame, options);

@@ -29,6 +29,7 @@ class AmbientOcclusion : public Chapter {
             throw UsageError("--view profile: is made of the pixels of --method rays");
         if (options_.save != "none" && options_.method != "vertices" && options_.method != "bits")
             throw UsageError("--save: only --method vertices and bits make values that a .glb can hold");
+        options_.light(frame.scene);  // a sky that cannot be had is named before a bake, not after it
         // [begin:solutions]
         // Solution 1: the normal knows how much of the sky lies behind the surface itself.
         if (options_.method == "hemisphere") return picture_->drawHemisphere(frame, options_);

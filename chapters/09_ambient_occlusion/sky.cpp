@@ -105,7 +105,7 @@ Sky Sky::named(const std::string& nameOrFile) {
     if (nameOrFile == "gradient") return gradientSky();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(nameOrFile, ignored)) {
-        throw UsageError(fmt::format("--sky {}: neither one of {} nor a .hdr or .exr file{}", nameOrFile,
+        throw UsageError(fmt::format("--sky {}: no such file, and none of {}{}", nameOrFile,
                                      joinNames(names()), didYouMean(nameOrFile, names())));
     }
     try {

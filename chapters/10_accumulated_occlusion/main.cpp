@@ -39,6 +39,8 @@ class AccumulatedOcclusionChapter : public Chapter {
     void render(const Frame& frame) override {
         if (save_ != "none" && !options_.perVertex())
             throw UsageError("--save: only --method vertices makes values that a .glb can hold");
+        if (save_ != "none" && save_ != savable_) requireSavable(save_);
+        savable_ = save_;
         // [begin:passes]
         // Pass 1: where the receivers are: what the pixels see, or the vertices.
         // Passes 2 and 3, for a batch of directions at a time: a shadow map from each of them; every receiver
@@ -89,7 +91,7 @@ class AccumulatedOcclusionChapter : public Chapter {
 
     OcclusionOptions options_;
     AmbientOptions light_;  ///< its sky
-    std::string save_ = "none";
+    std::string save_ = "none", savable_ = "none";
     std::optional<AccumulatedOcclusion> occlusion_;
     std::optional<Backdrop> backdrop_;
     std::optional<Program> pixels_, vertices_;

@@ -32,6 +32,9 @@ class BentNormals : public Chapter {
 
     void render(const Frame& frame) override {
         options_.requireSense();
+        // A sky or a lamp that is not there is named before a bake, not after it.
+        options_.skyOf(frame.scene);
+        options_.lamp(frame.scene);
         // [begin:passes]
         const bool asked = options_.asksTheSky(frame.view) || !frame.skips(skyNotShown);
         frame.work["points_asked"] = asked ? seen_->points(frame, options_) : 0;

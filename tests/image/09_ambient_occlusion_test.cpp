@@ -425,13 +425,20 @@ TEST(Chapter09, WhatAMethodCannotDoIsRefused) {
                               {{"method", "bits"}, {"samples", "32"}},
                               {{"method", "triangles"}, {"save", "/tmp/never.glb"}},
                               {{"method", "rays"}, {"save", "/tmp/never.glb"}},
+                              {{"save", "/tmp/never.txt"}, {"method", "vertices"}},
                               {{"method", "stored"}},
+                              {{"method", "vertices"}, {"sky", "no/such.exr"}},
                               {{"sky", "no/such.exr"}}};
     for (const Settings& settings : wrong) {
         ChapterHarness harness = harnessOf(testScene("contact"), {{"samples", "4"}});
         harness.set(settings);
+        harness.progress = [](double) { ADD_FAILURE() << "before a bake of minutes, not after it"; };
         EXPECT_THROW(harness.picture("color", {16, 16}, 3), UsageError) << settings[0].first;
     }
+    ChapterHarness unwritable = harnessOf(testScene("contact"), {{"method", "vertices"}, {"samples", "4"}});
+    unwritable.set("save", "/proc/never.glb");
+    unwritable.progress = [](double) { ADD_FAILURE() << "before a bake of minutes, not after it"; };
+    EXPECT_THROW(unwritable.picture("color", {16, 16}, 3), Error);
     ChapterHarness harness = harnessOf(testScene("room"), {{"sun", "on"}});
     EXPECT_THROW(harness.picture("color", {16, 16}, 3), UsageError) << "no sun in the class room";
     EXPECT_THROW(harness.truth("work", {16, 16}), UsageError);

@@ -180,6 +180,12 @@ TEST(Chapter10Vertices, AreSavedAsTheyAre) {
     ChapterHarness harness = harnessOf(testScene("contact"), {{"save", file}, {"samples", "8"}});
     EXPECT_THROW(harness.render("ambient", small), UsageError);
     harness.set("method", "vertices");
+    for (const char* wrong : {"/tmp/never.txt", "/proc/never.glb"}) {
+        harness.set("save", wrong);
+        EXPECT_THROW(harness.render("ambient", small), Error) << wrong;
+        EXPECT_EQ(harness.work.count("directions_added"), 0u) << "said after the work was done";
+    }
+    harness.set("save", file);
     harness.render("ambient", small);
 
     AccumulatedOcclusion occlusion;

@@ -54,7 +54,7 @@ class CommandTest(BenchTest):
         self.assertIn("in --quick: leave it out", said)
 
     def testAWrongCommandLine(self):
-        for words in (["--section", "none"], ["--scene", "none"], ["--fast"]):
+        for words in (["--section", "none"], ["--scene", "none"], ["--fast"], ["--check", "--quick"], ["--check", "--scene", "knot"]):
             with self.subTest(words), contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit) as left:
                 command.parse(words)
             self.assertEqual(left.exception.code, 2)

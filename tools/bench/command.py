@@ -33,6 +33,8 @@ def parse(words):
     parser.add_argument("--scene", action="append", metavar="NAME", help="only this one")
     options = parser.parse_args(words)
     options.bench = True
+    if options.check and (options.quick or options.peers or options.section or options.scene):
+        parser.error("argument --check: measures what bounds.json names, and goes with no other flag")
     scenes = {point.scene for section in sections.ALL for point in section.points(False)}
     for scene in options.scene or ():
         if scene not in scenes:
