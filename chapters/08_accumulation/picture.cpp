@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "chapters/08_accumulation/lit_sides.h"
 #include "common/scene/gpu_light.h"
 
 namespace penumbra {
@@ -118,17 +119,12 @@ void Picture::drawReceivers(const Frame& frame, const AccumulationOptions& optio
     glDepthFunc(GL_LEQUAL);
     received_.setTexture("uReceived", GL_TEXTURE_2D, dark_.id());
     for (const Receiver& receiver : received.receivers()) drawReceiver(frame, receiver);
-    glEnable(GL_CULL_FACE);
-    for (std::size_t i = 0; i < received.receivers().size(); ++i) {
-        const Receiver& receiver = received.receivers()[i];
-        if (!received.texture(i)) continue;
-        received_.setTexture("uReceived", GL_TEXTURE_2D, received.texture(i)->texture());
-        glCullFace(receiver.back ? GL_FRONT : GL_BACK);
-        drawReceiver(frame, receiver);
-    }
-    glCullFace(GL_BACK);
-    glDisable(GL_CULL_FACE);
-    glDepthFunc(GL_LESS);
+    drawLitSides(
+        received.receivers(), [&](std::size_t i) { return received.texture(i) != nullptr; },
+        [&](std::size_t i) {
+            received_.setTexture("uReceived", GL_TEXTURE_2D, received.texture(i)->texture());
+            drawReceiver(frame, received.receivers()[i]);
+        });
 }
 // [end:receivers]
 

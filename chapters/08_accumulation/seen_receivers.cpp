@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "chapters/01_depth_from_light/shadow_options.h"
+#include "chapters/08_accumulation/lit_sides.h"
 #include "chapters/08_accumulation/other_surfaces.h"
 #include "chapters/08_accumulation/stored_shadow.h"
 #include "common/app/pass_timer.h"
@@ -59,23 +60,17 @@ void SeenReceivers::draw(const Frame& frame, const std::vector<Receiver>& receiv
     id_.set("uId", colourOf(0));
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
-    DrawCounts drawn =
+    const DrawCounts whole =
         frame.gpu->drawShaded(id_, frame.skips(clustersUnseen) ? visibleClusters(frame.scene, Frustum(clip))
                                                                : allClusters(frame.scene));
-    std::size_t calls = drawn.drawCalls;
-    // As the picture: over the same depths, of surfaces that coincide the last.
-    glDepthFunc(GL_LEQUAL);
-    glEnable(GL_CULL_FACE);
-    for (std::size_t i = 0; i < receivers.size(); ++i) {
-        if (!lit[i]) continue;
-        glCullFace(receivers[i].back ? GL_FRONT : GL_BACK);
-        id_.set("uId", colourOf(i + 1));
-        drawn = frame.gpu->drawShaded(id_, receivers[i].part, rangesOf(receivers[i].triangles));
-        calls += drawn.drawCalls;
-    }
-    glCullFace(GL_BACK);
-    glDisable(GL_CULL_FACE);
-    glDepthFunc(GL_LESS);
+    std::size_t calls = whole.drawCalls;
+    drawLitSides(
+        receivers, [&](std::size_t i) { return lit[i]; },
+        [&](std::size_t i) {
+            id_.set("uId", colourOf(i + 1));
+            const Receiver& receiver = receivers[i];
+            calls += frame.gpu->drawShaded(id_, receiver.part, rangesOf(receiver.triangles)).drawCalls;
+        });
     frame.work["draw_calls"] += std::int64_t(calls);
 }
 // [end:seen]

@@ -16,6 +16,7 @@
 #include "tests/image/image_check.h"
 #include "tests/image/lit_scenes.h"
 #include "tests/image/mutated_shaders.h"
+#include "tests/image/sheet_shadow.h"
 #include "tests/image/test_scenes.h"
 
 namespace penumbra {
@@ -379,6 +380,27 @@ TEST(Chapter08Ways, UnseenReceiversAreFilledWhenTheyAreSeen) {
     EXPECT_EQ(lazy.work.count("receivers_unseen"), 0u);
 }
 
+// A floor with one light above it and one below: each has one receiver, so that nothing but which one it is
+// tells what was seen of the one from what is seen of the other. Kept, the floor would stay black from above.
+TEST(Chapter08Ways, WhatWasSeenIsNotKeptForOtherReceivers) {
+    const Scene scene =
+        withAreaLight(withAreaLight(floorScene().take(), squareLight({0, 1, 0}, {0, -1, 0}, 0.5)),
+                      squareLight({0, -1, 0}, {0, 1, 0}, 0.5));
+    const glm::ivec2 size(32, 32);
+    const Settings few{{"samples", "4"}, {"texels-per-metre", "16"}};
+    ChapterHarness harness = harnessOf(scene, few);
+    harness.set("light", "1");
+    harness.render("irradiance", size);
+    EXPECT_EQ(harness.work.at("receivers"), 1);
+    EXPECT_EQ(harness.work.at("receivers_unseen"), 1);
+    harness.set("light", "0");
+    const FloatImage above = harness.picture("irradiance", size, 3);
+    EXPECT_EQ(harness.work.at("receivers"), 1);
+    EXPECT_EQ(harness.work.count("receivers_unseen"), 0u);
+    EXPECT_EQ(differing(above, harnessOf(scene, few).picture("irradiance", size, 3)), 0u);
+    EXPECT_GT(above.at(16, 16), 0.0f);
+}
+
 // Red is what has points that disagree; seen straight from above, a texel is a pixel. The triangle's own
 // texture is all blue.
 TEST(Chapter08Ways, RedTexelsAreTheMixedOnes) {
@@ -460,6 +482,50 @@ TEST(Chapter08Ways, WhatDoesNotFitIsRefusedBeforehand) {
     EXPECT_EQ(bytes("mask", 4096) - bytes("mask", 32), 1000 * (4096 - 32) / 8);
     EXPECT_EQ(bytes("mask", 33), bytes("mask", 64));
     EXPECT_EQ(bytes("accumulate", 4096), bytes("accumulate", 1));
+}
+
+// --- the sum, point by point -------------------------------------------------------------------------------
+
+// Every point counts, with its own bit and weight: 250 of them are two passes of resolve.frag, and a last
+// word that is not full. One point too many or of twice its weight is off by 1/250, rounding by 3e-5.
+TEST(Chapter08Points, ATexelSeesTheShareThatItsLightPointsSay) {
+    constexpr int side = 64;  // a texel for each pixel of the floor
+    const std::vector<std::vector<dvec3>> sheets{
+        {{-0.5, 0.5, -0.4}, {0.1, 0.5, -0.4}, {0.1, 0.5, 0.2}, {-0.5, 0.5, 0.2}},
+        {{0.0, 0.2, -0.1}, {0.6, 0.4, -0.1}, {0.6, 0.4, 0.5}, {0.0, 0.2, 0.5}}};
+    SmallScene floor = floorScene();
+    for (const auto& sheet : sheets) floor.quad(sheet[0], sheet[1] - sheet[0], sheet[3] - sheet[0]);
+    const Scene scene = withAreaLight(floor.take(), squareLight({0.1, 1.1, -0.2}, {0.2, -1, 0.3}, 0.5));
+    const Light& light = scene.lights[0];
+    const std::vector<Hit> hits = primaryHits(RayTracer(scene), scene.cameras[0], {side, side}).hits;
+    const Settings common{{"pattern", "owen-sobol"}, {"target", "32f"}, {"texels-per-metre", "32"}};
+    for (const int samples : {50, 250}) {
+        std::vector<PointShadows> points;
+        for (const LightPoint& p : lightPoints(light, samples, LightPattern::owenSobol, 0)) {
+            points.push_back({p.position, {}});
+            for (const auto& sheet : sheets) points.back().sheets.emplace_back(sheet, p.position);
+        }
+        for (const Settings& way : {Settings{{"method", "mask"}}, Settings{{"masks", "stencil"}},
+                                    Settings{{"method", "accumulate"}}, Settings{{"weights", "equal"}}}) {
+            ChapterHarness harness = harnessOf(scene, common);
+            harness.set(way);
+            harness.set("samples", std::to_string(samples));
+            const FloatImage actual = harness.scalar("visibility", {side, side});
+            int halfShadow = 0;
+            double worst = 0.0;
+            for (std::size_t i = 0; i < actual.values.size(); ++i) {
+                // An edge is drawn to 1/256 of a texel.
+                const double expected = shareSeen(points, light.direction, hits[i].position,
+                                                  0.02 * 2.0 / side, way[0].second == "equal");
+                if (expected < 0.0) continue;
+                halfShadow += expected > 0.0 && expected < 1.0;
+                worst = std::max(worst, std::abs(actual.values[i] - expected));
+            }
+            // Sums of `samples` floats, each of a dozen roundings, and their ratio.
+            EXPECT_LE(worst, (samples + 32) * 0x1p-23) << way[0].second << samples;
+            EXPECT_GT(halfShadow, 300) << way[0].second << samples;
+        }
+    }
 }
 
 // --- stored visibility -------------------------------------------------------------------------------------

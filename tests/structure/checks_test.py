@@ -78,6 +78,16 @@ class ProgramsTest(TreeTest):
         self.assertEqual(result, (1, 1))
         self.assertIn("the reason\nFAILED b\n", said)
 
+    def testWhatCannotBeTestedHereIsNamedAndIsNoFailure(self):
+        self.write("release/CTestTestfile.cmake",
+                   'add_test(a true)\nadd_test(b sh -c "echo a_test.cpp:7: Skipped; echo no disk; echo SKIPPED")\n'
+                   'set_tests_properties(b PROPERTIES SKIP_REGULAR_EXPRESSION SKIPPED)\n')
+        self.assertEqual(self.outcome(checks.ctest, "release"), ((1, 0), "SKIPPED b: no disk\n"))
+        self.write("release/CTestTestfile.cmake", 'add_test(a true)\nadd_test(b no_such_program)\n')
+        result, said = self.outcome(checks.ctest, "release")
+        self.assertEqual(result, (1, 1), "a program that is not there is none of these")
+        self.assertIn("FAILED b\n", said)
+
     def testNoTestsAtAllAreAFailure(self):
         self.write("release/CTestTestfile.cmake", "add_test(a true)\n")
         self.assertEqual(self.outcome(checks.ctest, "release")[0], (1, 0))

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -15,6 +16,8 @@
 #include <string>
 #include <thread>
 
+#include "common/image/image.h"
+#include "common/image/srgb.h"
 #include "tests/unit/temporary_folder.h"
 
 namespace penumbra {
@@ -28,7 +31,7 @@ inline bool waitUntil(const std::function<bool()>& condition) {
     return false;
 }
 
-/// Xvfb on a free display of its own.
+/// Xvfb on a free display of its own. What it shows can be read.
 class VirtualScreen {
  public:
     VirtualScreen() {
@@ -39,7 +42,7 @@ class VirtualScreen {
             ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
             const std::string number = std::to_string(ends[1]);
             ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1400x900x24", "-nolisten",
-                     "tcp", "-noreset", nullptr);
+                     "tcp", "-noreset", "-fbdir", shown_.path().c_str(), nullptr);
             ::_exit(127);
         }
         ::close(ends[1]);
@@ -57,6 +60,26 @@ class VirtualScreen {
     std::string display() const {
         return std::system("command -v xdotool xrdb > /dev/null") == 0 ? display_ : std::string();
     }
+    /// What is seen at (x, y) from the upper left, `size` pixels: linear red, green and blue. The screen lies
+    /// in a file of the X window dump format (XWDFile.h): numbers of 4 bytes, the largest first, then colours
+    /// that nobody uses, then pixels as a small-endian machine holds 0xRRGGBB.
+    FloatImage shows(int x, int y, const glm::ivec2& size) const {
+        const std::string file = bytesOf(shown_ / "Xvfb_screen0");
+        const auto byte = [&](std::size_t at) { return std::size_t(std::uint8_t(file.at(at))); };
+        const auto number = [&](std::size_t i) {
+            return byte(4 * i) << 24 | byte(4 * i + 1) << 16 | byte(4 * i + 2) << 8 | byte(4 * i + 3);
+        };
+        const std::size_t headerSize = number(0), bytesPerLine = number(12), colours = number(19);
+        FloatImage image(size.x, size.y, 3);
+        for (int row = 0; row < size.y; ++row)
+            for (int column = 0; column < size.x; ++column)
+                for (int c = 0; c < 3; ++c)
+                    image.at(column, row, c) = decodeSrgb(
+                        float(byte(headerSize + 12 * colours + std::size_t(y + row) * bytesPerLine +
+                                   4 * std::size_t(x + column) + 2 - std::size_t(c))) /
+                        255.0f);
+        return image;
+    }
     /// Tells programs started from now on how dense the screen is: 96 dots per inch are scale 1.
     bool setDotsPerInch(int dpi) const {
         return std::system(("echo Xft.dpi: " + std::to_string(dpi) + " | xrdb -nocpp -display " + display_ +
@@ -65,6 +88,7 @@ class VirtualScreen {
     }
 
  private:
+    TemporaryFolder shown_;
     pid_t process_ = -1;
     std::string display_;
 };

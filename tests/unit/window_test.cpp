@@ -180,6 +180,24 @@ TEST_F(WindowTest, SizeIsTheSizeOfTheWindow) {
     expectQuit(*window);
 }
 
+// A screenshot is drawn anew: that the window itself follows its size can be seen on the screen alone. Drawn
+// into the target of the old size, the picture's lower left corner would fill the window.
+TEST_F(WindowTest, TheScreenShowsThePictureOfTheWindowsNewSize) {
+    const auto window = open({"--size", "160x100"});
+    window->press("h");                     // no panel in front of it
+    window->xdotool("mousemove 1390 890");  // no pointer either
+    for (const glm::ivec2& size : {glm::ivec2(160, 100), glm::ivec2(240, 160), glm::ivec2(120, 200)}) {
+        window->xdotool(
+            fmt::format("search --onlyvisible --name 'Penumbra 98_pattern' windowsize {} {} windowmove 0 0",
+                        size.x, size.y));
+        const FloatImage expected = headless({}, true, fmt::format("{}x{}", size.x, size.y));
+        double off = 1.0;
+        const auto isShown = [&] { return (off = difference(screen_.shows(0, 0, size), expected)) <= step; };
+        ASSERT_TRUE(waitUntil(isShown)) << size.x << "x" << size.y << ": off by " << off;
+    }
+    expectQuit(*window);
+}
+
 class WindowSlow : public WindowTest {};
 
 TEST_F(WindowSlow, ManySizesKeysAndShadersLaterItStillDrawsTheSame) {
