@@ -25,6 +25,29 @@ Vec3 roundedVector(const Vec3& v, double perUnit) {
     return {rounded(v.x, perUnit), rounded(v.y, perUnit), rounded(v.z, perUnit)};
 }
 
+bool isWithinEdge(const Vec3& p, const Vec3& a, const Vec3& b) {
+    constexpr double tolerance = 1e-7;  // metres: a tenth of what positions are rounded to
+    const Vec3 along = b - a;
+    const double part = glm::dot(p - a, along) / glm::dot(along, along);
+    return p != a && p != b && part > 0.0 && part < 1.0 && glm::length(p - a - part * along) < tolerance;
+}
+
+// A point lies within one edge of a triangle at most.
+void cutTriangles(Mesh& mesh, const Vec3& p) {
+    const auto added = static_cast<std::uint32_t>(mesh.positions.size());
+    const std::size_t before = mesh.triangles.size();
+    for (std::size_t k = 0; k < before; ++k)
+        for (int i = 0; i < 3; ++i) {
+            const glm::uvec3 t = mesh.triangles[k];
+            const std::uint32_t a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
+            if (!isWithinEdge(p, mesh.positions[a], mesh.positions[b])) continue;
+            mesh.triangles[k] = {a, added, c};
+            mesh.triangles.push_back({added, b, c});
+            break;
+        }
+    if (mesh.triangles.size() > before) mesh.positions.push_back(p);
+}
+
 }  // namespace
 
 void Mesh::triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -72,6 +95,15 @@ Mesh welded(const Mesh& mesh) {
         if (n.x != n.y && n.y != n.z && n.z != n.x) result.triangles.push_back(n);
     }
     return result;
+}
+
+Mesh sharingVertices(const Mesh& mesh, const Mesh& neighbour) {
+    Vec3 lower = mesh.positions.front(), upper = lower;
+    for (const Vec3& p : mesh.positions) lower = glm::min(lower, p), upper = glm::max(upper, p);
+    Mesh result = mesh;
+    for (const Vec3& p : neighbour.positions)
+        if (glm::min(p, lower) == lower && glm::max(p, upper) == upper) cutTriangles(result, p);
+    return welded(result);
 }
 
 bool isClosed(const Mesh& mesh) {

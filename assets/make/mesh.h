@@ -29,6 +29,12 @@ Mesh transformed(const Mesh& mesh, const Mat4& transform);
 /// equal positions one and drops triangles that have become degenerate (poles of a lathe, say).
 Mesh welded(const Mesh& mesh);
 
+/// Cuts triangles of `mesh` where a vertex of `neighbour` lies within one of their edges; both welded. The
+/// surface stays as it is, and two pieces that touch along a line end there in the same vertices. Where they
+/// do not, each rounds the line for itself, and here and there a pixel belongs to neither: one sees what is
+/// behind the ground.
+Mesh sharingVertices(const Mesh& mesh, const Mesh& neighbour);
+
 /// True if every edge of a welded mesh is shared by exactly two triangles that run through it in opposite
 /// directions.
 bool isClosed(const Mesh& mesh);

@@ -275,6 +275,28 @@ TEST(Chapter09Hemisphere, IsBlindToGullies) {
     EXPECT_GT(floor, 20) << "the bottom of the rectangular gully";
 }
 
+// Gully's ground is put together. While its pieces were closed bodies of their own, a pixel here and there
+// along the seams (40 in these pictures) showed a wall inside the ground, which sees half of the sky.
+TEST(Chapter09Hemisphere, SeesNoCrackBetweenPiecesOfGround) {
+    ChapterHarness harness = harnessOf(testScene("gully"), {{"method", "hemisphere"}});
+    Camera& camera = harness.camera;
+    camera.verticalFov = 0.1;  // a metre high: nothing else is in sight than level ground and the pit
+    for (const dvec3& onSeam : {dvec3(5, 0, -1.5), dvec3(5, 0, 0), dvec3(5, 0, 1.5), dvec3(5, 0, 6),
+                                dvec3(6.5, 0, -1.5), dvec3(6.5, 0, 1.5)})
+        for (int i = 0; i < 8; ++i) {
+            const double angle = 0.3 + 0.25 * pi * i;
+            const dvec3 towardsEye(std::cos(angle), 1.5, std::sin(angle));
+            camera.forward = -glm::normalize(towardsEye);
+            camera.up = glm::normalize(dvec3(0, 1, 0) - camera.forward.y * camera.forward);
+            camera.position = onSeam - harness.scene.origin - 10.0 * camera.forward;
+            const FloatImage picture = harness.scalar("ambient", {320, 240});
+            // The pit is steepest at its rim, (1 + 0.6) / 2.
+            const auto cracks = std::count_if(picture.values.begin(), picture.values.end(),
+                                              [](float seen) { return !(seen > 0.79f); });
+            EXPECT_EQ(cracks, 0) << onSeam.x << ", " << onSeam.z << " from " << angle;
+        }
+}
+
 // --- light -------------------------------------------------------------------------------------------------
 
 TEST(Chapter09Light, OpenGroundGetsWhatTheSkySends) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <string>
 
 #include "common/scene/gltf_loader.h"
@@ -172,6 +173,21 @@ TEST(Assets, TriangleCountsAsPromised) {
     const std::size_t courtyard = load("courtyard").triangleCount();
     EXPECT_GE(courtyard, 50'000u);
     EXPECT_LE(courtyard, 150'000u);
+}
+
+// `gully` | 9 842 | ... of the table in assets/README.md.
+TEST(Assets, TriangleCountsAsTheTableSays) {
+    std::ifstream readme(assets / "README.md");
+    int rows = 0;
+    for (std::string line; std::getline(readme, line);) {
+        std::smatch row;
+        if (!std::regex_search(line, row, std::regex(R"(^\| `(\w+)` \| ([\d ]+) \|)"))) continue;
+        std::string count = row[2];
+        count.erase(std::remove(count.begin(), count.end(), ' '), count.end());
+        EXPECT_EQ(load(row[1]).triangleCount(), std::stoul(count)) << row[1];
+        ++rows;
+    }
+    EXPECT_EQ(rows, 9);
 }
 
 TEST(Assets, LightsAsPromised) {
