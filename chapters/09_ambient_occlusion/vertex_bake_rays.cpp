@@ -21,19 +21,20 @@ struct Spoke {
     float even = 0.0f;                 ///< 1: number 0, 2, 4 ... of the lattice
 };
 
-/// The angle of one after the other grows by the golden section of a turn, and x by 1 / count. Sorted by the
-/// angle: Embree traces neighbours side by side, and those that go out over the same side of the point stay
-/// together on their way.
+/// The angle of one after the other grows by the golden section of a turn, and x by 1 / count; a part has
+/// every other one of twice as many, so that the two parts together are a lattice. Sorted by the angle:
+/// Embree traces neighbours side by side, and those that go out over the same side of the point stay together
+/// on their way.
 std::vector<Spoke> latticeSpokes(int count, LatticePart part) {
     constexpr double golden = 0.61803398874989485;
-    const double first = part == LatticePart::odd ? 0.5 : 0.0;
-    const double offset = part == LatticePart::whole ? 0.5 : part == LatticePart::even ? 0.25 : 0.75;
+    const int stride = part == LatticePart::whole ? 1 : 2, begin = part == LatticePart::odd ? 1 : 0;
     std::vector<std::pair<double, Spoke>> sorted;
     for (int i = 0; i < count; ++i) {
-        const double turns = (i + first) * golden, angle = 2.0 * std::numbers::pi * turns;
+        const int number = begin + stride * i;
+        const double turns = number * golden, angle = 2.0 * std::numbers::pi * turns;
         sorted.push_back({turns - std::floor(turns),
-                          {float((i + offset) / count), float(std::cos(angle)), float(std::sin(angle)),
-                           i % 2 == 0 ? 1.0f : 0.0f}});
+                          {float((number + 0.5) / (stride * double(count))), float(std::cos(angle)),
+                           float(std::sin(angle)), i % 2 == 0 ? 1.0f : 0.0f}});
     }
     std::ranges::sort(sorted, {}, [](const auto& entry) { return entry.first; });
     std::vector<Spoke> spokes;

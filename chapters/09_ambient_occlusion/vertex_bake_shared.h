@@ -1,6 +1,7 @@
 // A bake whose points help one another (shared_rays.h). Internal to vertex_bake.h.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,7 @@ class SharedBake final : public Bake {
     struct Aim {
         double mean = 0.0;       ///< of the variances, in the end
         double threshold = 0.0;  ///< of this round: who is above needs more
+        std::int64_t alone = 0;  ///< 1: neighbours help too little, and each point has all of its rays
     };
 
     std::size_t perRound() const { return piecesOf(count()); }

@@ -293,6 +293,16 @@ TEST(SharedRays, AreAsGoodAsSoManyRaysAloneOnASharpGullyToo) {
     }
 }
 
+TEST(SharedRays, WhereNeighboursSeeOtherThingsEachPointHasTheRaysThatItWouldHaveAlone) {
+    const Scene scene = heightField(20, [](double x, double z) {
+        return hashUnit(std::uint32_t(std::lround(10.0 * x + 10.0)), std::uint32_t(std::lround(10.0 * z)));
+    });
+    const AmbientBake ours = baked(scene, shared(128)), plain = baked(scene, alone(128));
+    EXPECT_EQ(ours.work.rays, plain.work.rays);
+    for (std::size_t i = 0; i < plain.values.size(); ++i)
+        EXPECT_NEAR(ours.values[i].visibility, plain.values[i].visibility, 1e-6);
+}
+
 TEST(SharedRays, WhereAllIsBlackSoIsWhatNeighboursSay) {
     // On a round wall the places say what the normals say, and do not determine the function: what rounding
     // leaves of the equations must not be taken for knowledge.
