@@ -47,6 +47,14 @@ half-shadow, where an error would show: a disk that is a thirtieth too small, or
 case in some hundred.
 """
 
+ACNE = """## Acne, by the angle of the light
+
+The derived bias is that of the receiver's slope, and slopes are followed up to 85 degrees: beyond them the bound has no end, and
+a twelfth of the light is left to shadow. Below, nothing may shadow itself, and nothing does (subjects `bias` and `filter`); from
+there on a surface may, and then all of it. Of the pieces of the angle's range in which anything does, the share of the picture, at
+worst:
+"""
+
 LEAKS = """## Leaks, by the angle of the light
 
 A sheet hangs over the ground, as far off as the bias may reach and what the depths of texel and ground may be off by;
@@ -121,6 +129,16 @@ def exactGeometry(report):
     return EXACT + "\n" + table(("subject", "figure", "largest"), rows) if rows else ""
 
 
+def acne(report):
+    """What shadows itself where the bias is capped, by the angle at which the light meets the surface's middle."""
+    faint = "share of pixels that shadow themselves where light comes in at 85 degrees or more"
+    found = {name: (subjectNamed(report, name) or {"bins": {}})["bins"].get("light-angle", []) for name in ("bias", "filter")}
+    rows = [(one["from"], one["cases"], number(one["worst"].get(faint, 0.0)), other["cases"],
+             number(other["worst"].get(faint, 0.0))) for one, other in zip(found["bias"], found["filter"])
+            if faint in one["worst"] and (one["worst"][faint] or other["worst"].get(faint))]
+    return ACNE + "\n" + table(("degrees, from", "cases of `bias`", "share", "cases of `filter`", "share"), rows) if rows else ""
+
+
 def leaks(report):
     """How deep a bias may reach under a grazing light, and how often that is deeper than the scene."""
     pieces = (subjectNamed(report, "leak") or {"bins": {}})["bins"].get("light-angle", [])
@@ -164,7 +182,7 @@ def floatEnds(report):
 
 
 def pageOf(report):
-    parts = [HEAD, summary(report), failures(report), subjects(report), exactGeometry(report), leaks(report), energy(report),
+    parts = [HEAD, summary(report), failures(report), subjects(report), exactGeometry(report), acne(report), leaks(report), energy(report),
              floatEnds(report), worst(report), refusals(report), coverage(report)]
     return "\n".join(part for part in parts if part)
 

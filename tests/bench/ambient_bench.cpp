@@ -3,6 +3,8 @@
 // Debian's package glmark2-data (left out if it is not installed). Then relighting from stored bits.
 //
 //     ambient_bench [RUNS]        (5) CPU time of all threads, the least of RUNS interleaved runs
+//     ambient_bench MESH          knot, terrain or bunny alone; --benchmark_out=FILE also writes its figures
+//                                 there, as Google Benchmark would: a page's table is made of them
 //     ambient_bench million       instead: bits of 1 000 000 vertices x 256 directions, time and memory
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -13,12 +15,15 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <span>
 #include <sstream>
+#include <string>
 
 #include "chapters/09_ambient_occlusion/vertex_bake.h"
 #include "chapters/09_ambient_occlusion/vertex_bake_points.h"
 #include "chapters/09_ambient_occlusion/vertex_bake_rays.h"
 #include "chapters/09_ambient_occlusion/visibility_bits.h"
+#include "common/error.h"
 #include "common/math/hemisphere.h"
 #include "common/math/sampling.h"
 #include "common/scene/gltf_loader.h"
@@ -215,7 +220,21 @@ BakeSettings settingsFor(int count) {
 }
 
 /// How many times faster we are.
-double compare(const std::string& name, const Scene& scene, int runs) {
+/// A mesh by the plain loop, and by ours with as small an error.
+struct Compared {
+    Found loop, ours;
+    double loopTime = 0.0, ourTime = 0.0;  ///< seconds of CPU
+    double rays = 0.0;                     ///< of ours, a vertex
+
+    double times() const { return loopTime / ourTime; }
+    std::string json() const {
+        return fmt::format(
+            R"({{"benchmarks":[{{"loop_rays":{},"loop_rmse":{},"loop_ms":{},"rays":{},"rmse":{},"ms":{},"times":{}}}]}})",
+            loop.count, loop.rmse, 1e3 * loopTime, rays, ours.rmse, 1e3 * ourTime, times());
+    }
+};
+
+Compared compare(const std::string& name, const Scene& scene, int runs) {
     const PlainEmbree embree(scene);
     const RayBundle bundle(scene);
     const Truth truth(scene, embree, bundle);
@@ -238,14 +257,14 @@ double compare(const std::string& name, const Scene& scene, int runs) {
         loopTime = std::min(loopTime, middle - start);
     }
     const double vertices = double(scene.positions.size());
+    const Compared found{loop, ours, loopTime, ourTime, double(bake.work.rays) / vertices};
     fmt::print(
         "{:8} {:6} vertices  loop: {:4} rays, RMSE {:.5f}, {:7.1f} ms   ours: {:5.1f} rays, RMSE {:.5f}, "
         "{:7.1f} ms, {:.1f} MB (as {} alone)   {:.2f} times faster   halves/noise {:.2f}\n",
-        name, scene.positions.size(), loop.count, loop.rmse, 1e3 * loopTime,
-        double(bake.work.rays) / vertices, ours.rmse, 1e3 * ourTime, double(bake.work.bytes) * 1e-6,
-        ours.count, loopTime / ourTime, truth.halvesOverNoise);
+        name, scene.positions.size(), loop.count, loop.rmse, 1e3 * loopTime, found.rays, ours.rmse,
+        1e3 * ourTime, double(bake.work.bytes) * 1e-6, ours.count, found.times(), truth.halvesOverNoise);
     std::fflush(stdout);
-    return loopTime / ourTime;
+    return found;
 }
 
 void relighting(const Scene& scene) {
@@ -284,34 +303,55 @@ void million() {
         double(baked.work.bytes) * 1e-6, double(bundle.bytes()) * 1e-6, before, megabytesAtMost());
 }
 
+const char* const bunnyFile = "/usr/share/glmark2/models/bunny.obj";
+
+Scene mesh(const std::string& name) {
+    if (name == "terrain") return terrain(187);
+    if (name == "bunny") return objFile(bunnyFile);
+    return loadGltf(std::filesystem::path(PENUMBRA_SOURCE_DIR) / "assets" / "knot.glb");
+}
+
 void compareAll(int runs) {
-    struct Mesh {
-        std::string name;
-        Scene scene;
-    };
-    std::vector<Mesh> meshes;
-    meshes.push_back({"knot", loadGltf(std::filesystem::path(PENUMBRA_SOURCE_DIR) / "assets" / "knot.glb")});
-    meshes.push_back({"terrain", terrain(187)});
-    const std::filesystem::path bunny = "/usr/share/glmark2/models/bunny.obj";
-    if (std::filesystem::exists(bunny)) {
-        meshes.push_back({"bunny", objFile(bunny)});
+    std::vector<std::string> names{"knot", "terrain"};
+    if (std::filesystem::exists(bunnyFile)) {
+        names.emplace_back("bunny");
     } else {
-        fmt::print("bunny: left out, there is no {} (package glmark2-data)\n", bunny.string());
+        fmt::print("bunny: left out, there is no {} (package glmark2-data)\n", bunnyFile);
     }
     double logarithms = 0.0;
-    for (const Mesh& mesh : meshes) logarithms += std::log(compare(mesh.name, mesh.scene, runs));
+    for (const std::string& name : names) logarithms += std::log(compare(name, mesh(name), runs).times());
     fmt::print("geometric mean: {:.2f} times faster at RMSE <= {} (at least 2.5 is asked for)\n",
-               std::exp(logarithms / double(meshes.size())), wantedRmse);
-    relighting(meshes.back().scene);
+               std::exp(logarithms / double(names.size())), wantedRmse);
+    relighting(mesh(names.back()));
+}
+
+/// Figures of one mesh, for a page. `out`: a file, or none. Returns the exit status.
+int compareOne(const std::string& name, const std::string& out) {
+    if (name == "bunny" && !std::filesystem::exists(bunnyFile)) {
+        fmt::print(stderr, "ambient_bench: there is no {}; install the package glmark2-data\n", bunnyFile);
+        return exitFailed;
+    }
+    const std::string json = compare(name, mesh(name), 3).json();
+    if (!out.empty()) std::ofstream(out) << json << '\n';
+    return exitFine;
 }
 
 }  // namespace
 }  // namespace penumbra
 
 int main(int argc, char** argv) {
-    const std::string argument = argc > 1 ? argv[1] : "5";
+    const std::string outFlag = "--benchmark_out=";
+    std::string argument = "5", out;
+    for (const std::string word : std::span(argv, std::size_t(argc)).subspan(1)) {
+        if (word.starts_with(outFlag))
+            out = word.substr(outFlag.size());
+        else if (!word.starts_with("--benchmark_out_format"))
+            argument = word;
+    }
     if (argument == "million")
         penumbra::million();
+    else if (argument == "knot" || argument == "terrain" || argument == "bunny")
+        return penumbra::compareOne(argument, out);
     else
         penumbra::compareAll(std::max(1, std::atoi(argument.c_str())));
     return 0;

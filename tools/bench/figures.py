@@ -133,8 +133,8 @@ def legend(entries, marked):
         parts.append(Text(left + 32, y + 4, curve.label, "start"))
     y = TOP + 16 + 19 * len(entries)
     if marked:
-        parts += [Mark(left + 12, y, "circle", "#666666", True), Text(left + 32, y + 4, "filled: nothing quicker", "start"),
-                  Text(left + 32, y + 20, "and as right", "start")]
+        parts += [Mark(left + 12, y, "circle", "#666666", True), Text(left + 32, y + 4, "filled: the Pareto front,", "start"),
+                  Text(left + 32, y + 20, "nothing quicker and as right", "start")]
     return parts
 
 

@@ -67,7 +67,8 @@ CASES = (
     Case("nothing moves", "03_polygon_offset", "courtyard", (*MAPS, "--still"), (skip("kept-maps"),)),
     Case("a wide filter", "07_branching", "courtyard", (*MAPS, "--samples", "64"), (
         Off("--classify none", ("--classify", "none"), "visibility_tests", "all taps only where the minima and maxima of "
-            "the map leave open whether all of them agree"), everything("visibility_tests"))),
+            "the map leave open whether all of them agree"),
+        Off("--skip-none --classify none", ("--skip-none", "--classify", "none"), "visibility_tests", "nothing is left out"))),
     Case("a wide filter, nothing moves", "07_branching", "courtyard", (*MAPS, "--still"), (skip("kept-min-max"),)),
     Case("an area light on planes", "08_accumulation", "room", (*MASKS, "--light", "1"), (
         skip("receivers-unseen"), skip("receivers-unreached"), skip("clusters-not-between"), skip("texels-unreached"),
