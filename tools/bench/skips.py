@@ -89,6 +89,9 @@ CASES = (
         skip("rays-to-open-sky", "rays_baked"),
         Off("--share off", ("--share", "off"), "rays_baked", "neighbours use one another's rays: other values, as accurate",
             exact=False)), whole=True, runs=1),
+    Case("a bake of a mesh", "09_ambient_occlusion", "knot", ("--method", "vertices", "--samples", "256", "--view", "ambient"), (
+        Off("--share off", ("--share", "off"), "rays_baked", "neighbours use one another's rays: other values, as accurate",
+            exact=False),), whole=True, runs=1),
     Case("a bake of bits", "09_ambient_occlusion", "gully",
          ("--method", "bits", "--samples", "512", "--view", "irradiance"), (
              skip("rays-to-open-sky", "rays_baked"),), whole=True, runs=1),
