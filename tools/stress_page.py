@@ -182,8 +182,8 @@ def floatEnds(report):
 
 
 def pageOf(report):
-    parts = [HEAD, summary(report), failures(report), subjects(report), exactGeometry(report), acne(report), leaks(report), energy(report),
-             floatEnds(report), worst(report), refusals(report), coverage(report)]
+    parts = [HEAD, summary(report), failures(report), subjects(report), exactGeometry(report), acne(report), leaks(report),
+             energy(report), floatEnds(report), worst(report), refusals(report), coverage(report)]
     return "\n".join(part for part in parts if part)
 
 

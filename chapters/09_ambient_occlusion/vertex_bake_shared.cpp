@@ -90,8 +90,10 @@ void SharedBake::beginSecond() {
     const double fewer = margin * std::pow(double(firstCount_) / settings().rays.count, 1.5);
     double alone = 0.0, together = 0.0;  // variance
     for (std::size_t i = 0; i < count(); ++i) {
-        if (seesAll(i)) variances_[i] = 0.0f;
-        if (seesAll(i)) continue;
+        if (seesAll(i)) {
+            variances_[i] = 0.0f;
+            continue;
+        }
         alone += double(others_[i].noise);
         together += double(variances_[i]);
     }

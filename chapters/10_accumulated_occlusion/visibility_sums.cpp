@@ -37,16 +37,13 @@ std::vector<glm::vec4> TexturePair::readFirst() const {
 
 namespace {
 
-/// Row `row` of a rotation: an axis of the view, in the world.
-glm::vec4 axis(const glm::dmat4& rotation, int row) {
-    return {glm::vec3(rotation[0][row], rotation[1][row], rotation[2][row]), 0.0f};
-}
-
 void setMaps(Program& program, const SkyMaps& maps, const SkyBatch& batch) {
     std::vector<glm::vec4> right, up, radiance;
     for (std::size_t i = 0; i < batch.frusta.size(); ++i) {
-        right.push_back(axis(batch.frusta[i].lightViewFromWorld, 0));
-        up.push_back(axis(batch.frusta[i].lightViewFromWorld, 1));
+        const glm::dmat4 axes =
+            glm::transpose(batch.frusta[i].lightViewFromWorld);  // of the view, in the world
+        right.emplace_back(axes[0]);
+        up.emplace_back(axes[1]);
         radiance.emplace_back(glm::vec3(batch.radiances[i]), 0.0f);
     }
     const LightFrustum& any = batch.frusta.front();  // all are around the same sphere

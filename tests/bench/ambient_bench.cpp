@@ -219,7 +219,6 @@ BakeSettings settingsFor(int count) {
     return settings;
 }
 
-/// How many times faster we are.
 /// A mesh by the plain loop, and by ours with as small an error.
 struct Compared {
     Found loop, ours;

@@ -50,13 +50,16 @@ def skip(name, counter="", quick=False):
     return Off(name, ("--no-skip", name), counter, quick=quick)
 
 
-def everything(counter):
-    return Off("--skip-none", ("--skip-none",), counter, "nothing is left out")
+def everything(counter, *more):
+    flags = ("--skip-none", *more)
+    return Off(" ".join(flags), flags, counter, "nothing is left out")
 
 
 MAPS = ("--fit", "view", "--map-size", "1024")
 NEAR = ("--light", "1", "--camera", "1", "--map-size", "256", "--size", "128x128")  # few pixels: the triangles' time shows
 MASKS = ("--others", "unshadowed", "--view", "irradiance")
+NOT_SHARED = Off("--share off", ("--share", "off"), "rays_baked", "neighbours use one another's rays: other values, as accurate",
+                 exact=False)
 CASES = (
     Case("a light's rays", "00_ray_traced_truth", "courtyard", ("--samples", "64", "--size", "256x256"), (
         skip("rays-facing-away"),
@@ -68,7 +71,7 @@ CASES = (
     Case("a wide filter", "07_branching", "courtyard", (*MAPS, "--samples", "64"), (
         Off("--classify none", ("--classify", "none"), "visibility_tests", "all taps only where the minima and maxima of "
             "the map leave open whether all of them agree"),
-        Off("--skip-none --classify none", ("--skip-none", "--classify", "none"), "visibility_tests", "nothing is left out"))),
+        everything("visibility_tests", "--classify", "none"))),
     Case("a wide filter, nothing moves", "07_branching", "courtyard", (*MAPS, "--still"), (skip("kept-min-max"),)),
     Case("an area light on planes", "08_accumulation", "room", (*MASKS, "--light", "1"), (
         skip("receivers-unseen"), skip("receivers-unreached"), skip("clusters-not-between"), skip("texels-unreached"),
@@ -87,11 +90,9 @@ CASES = (
              skip("rays-to-open-sky"),), runs=1),
     Case("a bake", "09_ambient_occlusion", "courtyard", ("--method", "vertices", "--samples", "256", "--view", "ambient"), (
         skip("rays-to-open-sky", "rays_baked"),
-        Off("--share off", ("--share", "off"), "rays_baked", "neighbours use one another's rays: other values, as accurate",
-            exact=False)), whole=True, runs=1),
+        NOT_SHARED), whole=True, runs=1),
     Case("a bake of a mesh", "09_ambient_occlusion", "knot", ("--method", "vertices", "--samples", "256", "--view", "ambient"), (
-        Off("--share off", ("--share", "off"), "rays_baked", "neighbours use one another's rays: other values, as accurate",
-            exact=False),), whole=True, runs=1),
+        NOT_SHARED,), whole=True, runs=1),
     Case("a bake of bits", "09_ambient_occlusion", "gully",
          ("--method", "bits", "--samples", "512", "--view", "irradiance"), (
              skip("rays-to-open-sky", "rays_baked"),), whole=True, runs=1),
